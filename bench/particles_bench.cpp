@@ -55,7 +55,7 @@ void crumble(Particles& particles, std::uint32_t count, double debris_ratio) {
     const Vec3 at(random.uniform(-7, 7), random.uniform(0.5, 4), random.uniform(-7, 7));
     const std::vector<Vec3> corners = {at, at + Vec3(0, 0, 0.5), at + Vec3(0.5, 0, 0.5),
                                        at + Vec3(0.5, 0, 0)};
-    Emission face;
+    ExposedPolygon face;
     face.corners_W = corners;
     face.motion = {at, 3 * random.direction(), Vec3::Zero()};
     face.crumbling.particles_per_m2 = count / (400 * 0.25);

@@ -87,19 +87,19 @@ void Ten_blows(benchmark::State& state) {
   load.gravity_R = kDown;
   load.most_work = std::uint64_t{1} << 40;
   load.memory = break_by_stress(structure, load).memory;
-  std::vector<Load> impulses;
+  std::vector<AppliedForce> impulses;
   for (std::uint32_t i = 1; i <= kBlows; ++i) {
     const auto at = static_cast<std::uint32_t>(compound.convexes.size() * i / kBlows - 1);
     impulses.push_back(
         {ConvexSlot(at), Vec3(std::cos(i), 0, std::sin(i)), compound.convexes[at]->solid.centroid});
   }
-  std::vector<Blow> blows;
-  for (const Load& impulse : impulses)
+  std::vector<ImpulsiveLoad> blows;
+  for (const AppliedForce& impulse : impulses)
     blows.push_back({std::span(&impulse, 1), 1, impulse.point_R, 0});
   double worst = 0;
   for (auto _ : state) {
     LoadCase one = load;
-    for (const Blow& blow : blows) {
+    for (const ImpulsiveLoad& blow : blows) {
       one.blow = blow;
       worst = break_by_stress(structure, one).blow.worst;
     }

@@ -8,7 +8,7 @@ set(public_headers
   engine/base/types.h
   engine/geometry/convex_polyhedron.h
   engine/io/statistics.h
-  engine/io/take/take.h
+  engine/io/recording/recording.h
   engine/model/compound.h
   engine/model/energy.h
   engine/model/frame.h

@@ -29,7 +29,7 @@ if(SUNDER_ARCH STREQUAL "x86-64-v3" AND EXISTS /proc/cpuinfo)
 endif()
 
 # Same bits everywhere: no contraction, no fast math, and no explicit FMA from Eigen's own kernels
-# (docs/decisions/001-same-bits.md). Users of the library get these too: it has inline functions.
+# (docs/decisions/001-determinism.md). Users of the library get these too: it has inline functions.
 add_library(sunder_options INTERFACE)
 target_compile_features(sunder_options INTERFACE cxx_std_20)
 target_compile_definitions(sunder_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)

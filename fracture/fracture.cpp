@@ -17,7 +17,7 @@ BreakPlan unbroken(const Compound& compound) {
   return plan;
 }
 
-/// Adds what became of another island.
+/// Appends the result of one more island.
 void append(BreakPlan island, BreakPlan& plan) {
   const auto first = static_cast<std::uint32_t>(plan.pieces.size());
   std::move(island.pieces.begin(), island.pieces.end(), std::back_inserter(plan.pieces));

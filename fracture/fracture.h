@@ -1,12 +1,12 @@
-// A fracture event, whole or partial (paper 3.1 and 3.2), as five steps:
+// Fracture of a structure by a pattern, whole or partial (paper 3.1 and 3.2), in five steps:
 //
-//   align      (align.h)         the pattern is moved onto the impact
-//   intersect  (intersect.h)     convexes within reach are cut by its cells
-//   weld       (weld.h)          covered cells become one convex
-//   group      (fragments.h)     what lies in one cell, or colour, goes together; the rest stays
-//   islands    (reassembly.h)    what no longer touches parts company
+//   align      (align.h)         moves the pattern to the impact
+//   intersect  (intersect.h)     cuts the convexes within reach by the cells of the pattern
+//   weld       (weld.h)          replaces the parts that fill a cell by one convex
+//   group      (fragments.h)     groups fragments by cell or colour; the rest keeps its group
+//   islands    (reassembly.h)    makes each connected component of a group a piece
 //
-// Read first: break_structure(). Its cost depends on what the sphere touches alone.
+// Read first: break_structure(). Its cost depends only on the convexes that the sphere touches.
 #pragma once
 
 #include "engine/model/breaker.h"
@@ -15,17 +15,18 @@
 
 namespace sunder::fracture {
 
-/// What a pattern at its place does to a structure, which is left as it is.
+/// Returns the edit by which the placed pattern breaks a structure; the structure is not changed.
+/// `event` is unique in a run and at least 1; the ids of new planes follow from it.
 BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           const Placement& placement, const ImpactSphere& sphere,
                           std::uint64_t event, const Fit& fit = {});
 
-/// Carries an edit out, and gives all there is then as pieces: what is left of the structure first.
+/// Applies an edit and returns all that is there then as pieces: the remaining structure first.
 BreakPlan as_pieces(Structure& structure, BreakEdit edit);
 
-/// A break of a compound, as pieces: what is left of it first. Gives it back as it was, if
-/// nothing came off. Islands that do not hang together (a compound given in may have several) break
-/// each on its own, and are pieces in any case.
+/// Breaks a compound and returns its pieces, the remaining compound first; returns the compound
+/// unchanged if nothing came off. A compound given in may have several islands: each of them breaks
+/// separately and is a piece in any case.
 BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Placement& placement,
                    const ImpactSphere& sphere, std::uint64_t event, const Fit& fit = {});
 

@@ -19,9 +19,9 @@ namespace sunder::fracture {
 namespace {
 
 // A convex is a pane if its least width is below this share of the cube root of its volume.
-constexpr double kPane = 0.3;
+constexpr double kMaxPaneThickness = 0.3;
 
-/// The rotation that takes y to `axis`, after a rotation about y.
+/// Returns the rotation that takes y to `axis`, after a rotation about y.
 Quat rotation_onto(const Vec3& axis, double about_y_rad) {
   const Vec3 y = axis.normalized();
   Vec3 x = y.cross(std::abs(y.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
@@ -32,7 +32,7 @@ Quat rotation_onto(const Vec3& axis, double about_y_rad) {
   return Quat(rotation).normalized();
 }
 
-/// The direction across a pane; otherwise that of the impact.
+/// Returns the direction across a pane, and that of the impact for other convexes.
 Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 thin = direction_R;
@@ -46,12 +46,13 @@ Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
       thin = face.plane.normal;
     }
   }
-  if (least > kPane * std::cbrt(convex.solid.volume_m3)) return direction_R;
+  if (least > kMaxPaneThickness * std::cbrt(convex.solid.volume_m3)) return direction_R;
   return thin.dot(direction_R) < 0 ? Vec3(-thin) : thin;
 }
 
-/// How a pattern lies: Voronoi cells any way round, masonry as it was built, wood along the
-/// longest side of the convex, webs across a pane or the impact.
+/// Returns the orientation of a pattern: random for Voronoi cells, that of the rest frame for
+/// bricks, along the longest side of the convex for wood, across the pane or along the impact for
+/// webs.
 Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direction_R,
                  Random& random) {
   const double about_y_rad = random.uniform(0, 2 * std::numbers::pi);
@@ -73,10 +74,10 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
   }
 }
 
-// A convex of which less than this share is in a plug stays.
-constexpr double kInPlug = 0.05;
+// A convex of which less than this share lies in a plug is not separated.
+constexpr double kMinShareInPlug = 0.05;
 
-/// Share of a convex, given in the pattern's frame, that lies in the prism of a plug.
+/// Returns the share of a convex, given in the pattern's frame, that lies in the prism of a plug.
 double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   const double volume_m3 = mass_properties(part_P).volume_m3;
   ConvexPolyhedron cut;
@@ -89,22 +90,23 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   };
   const std::vector<Vec2>& section = plug.section_m;
   for (std::size_t i = 0; i < section.size(); ++i)
-    if (!keep(upright_plane(section[i], section[(i + 1) % section.size()]))) return 0;
+    if (!keep(plane_parallel_to_y(section[i], section[(i + 1) % section.size()]))) return 0;
   if (!plug.through && !keep(Plane::through(Vec3(0, plug.depth_m, 0), Vec3::UnitY()))) return 0;
   return mass_properties(part_P).volume_m3 / volume_m3;
 }
 
-/// Parts the convexes that reach into a plug from all others, and from each other.
-BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
+/// Separates the convexes that reach into a plug from all others, and from each other.
+BreakEdit separate_plug(const Structure& structure, const BreakCommand& command) {
   const Pose X_PR = command.X_RP.inverse();
   const Plug& plug = *command.plug;
   std::vector<ConvexSlot> loose;
   for (const ConvexSlot slot : structure.within(command.X_RP.position, command.radius_m)) {
     const Convex& convex = *structure.convex(slot);
     if (structure.anchored(slot) != 0 ||
-        std::ranges::find(command.spared, convex.material) == command.spared.end())
+        std::ranges::find(command.unbreakable, convex.material) == command.unbreakable.end())
       continue;
-    if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kInPlug) loose.push_back(slot);
+    if (share_in(plug, transformed(convex.polyhedron, X_PR)) > kMinShareInPlug)
+      loose.push_back(slot);
   }
   if (loose.empty()) return {};
   Compound compound = structure.compound();
@@ -118,11 +120,11 @@ BreakEdit part_around(const Structure& structure, const BreakCommand& command) {
     if (parts) cut.push_back(bond);
     return parts;
   });
-  return part(compound, slots, cut, {});
+  return separate_islands(compound, slots, cut, {});
 }
 
-/// Replaces the pattern by a plug, if the striker drives one out.
-void add_plug(const Convex& convex, const Material& material, const Hit& hit,
+/// Replaces the pattern by a plug if the striker drives one out of the solid.
+void add_plug(const Convex& convex, const Material& material, const StructureImpact& hit,
               BreakCommand& command) {
   Pose X_RP;
   command.plug = make_plug(material, hit, axis_across(convex, hit.direction_R), X_RP);
@@ -136,8 +138,9 @@ class PatternBreaker final : public Breaker {
  public:
   explicit PatternBreaker(std::shared_ptr<FailureLog> log) : log_(std::move(log)) {}
 
-  BreakCommand command(const Convex& convex, std::span<const Material> materials, const Hit& hit,
-                       std::uint64_t event, std::uint64_t seed) const override {
+  BreakCommand command(const Convex& convex, std::span<const Material> materials,
+                       const StructureImpact& hit, std::uint64_t event,
+                       std::uint64_t seed) const override {
     const Material& material = materials[convex.material.value];
     Random random(seed, 3);
     BreakCommand command;
@@ -146,8 +149,8 @@ class PatternBreaker final : public Breaker {
     command.pattern = material.pattern;
     command.radius_m = material.impact_radius_m;
     command.fit = material.fit;
-    command.smallest_m3 = material.smallest_broken_m3();
-    for (const StrongerImpact& stronger : material.stronger) {
+    command.smallest_m3 = material.min_breakable_volume_m3();
+    for (const ImpactResponse& stronger : material.stronger) {
       if (hit.energy_J < stronger.energy_J) break;
       command.pattern = stronger.pattern;
       command.radius_m = stronger.impact_radius_m;
@@ -155,7 +158,7 @@ class PatternBreaker final : public Breaker {
     const double thickness_m = is_thin(convex) ? mean_thickness_m(convex) : 0;
     reduce_to_energy(material, hit, command.radius_m, thickness_m, command.pattern);
     for (std::size_t m = 0; m < materials.size(); ++m) {
-      if (!materials[m].breakable()) command.spared.emplace_back(m);
+      if (!materials[m].breakable()) command.unbreakable.emplace_back(m);
     }
     command.X_RP = {hit.point_R,
                     orientation(command.pattern.kind, convex, hit.direction_R, random)};
@@ -166,7 +169,7 @@ class PatternBreaker final : public Breaker {
   BreakEdit plan(const Structure& structure, const BreakCommand& command) const override {
     if (command.plug && command.plug->section_m.empty()) return {};
     if (command.pattern.kind == PatternSpec::Kind::kNone)
-      return command.plug ? part_around(structure, command) : BreakEdit{};
+      return command.plug ? separate_plug(structure, command) : BreakEdit{};
     const bool whole = command.radius_m == std::numeric_limits<double>::infinity();
     const ReadyBreak ready = make_ready(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
@@ -177,10 +180,10 @@ class PatternBreaker final : public Breaker {
     return edit;
   }
 
-  void note_carried_out(const BreakPlan& plan) const override {
+  void on_applied(const BreakPlan& plan) const override {
     if (log_) log_->count(plan.failed, plan.failed_m3);
   }
-  StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
+  StressResult stress(const Structure& structure, const LoadCase& load) const override {
     return break_by_stress(structure, load);
   }
   std::vector<float> utilisation(const Structure& structure, const LoadCase& load) const override {
@@ -193,7 +196,7 @@ class PatternBreaker final : public Breaker {
   mutable PatternLibrary library_;
 };
 
-/// How far the farthest corner of a box is.
+/// Returns the distance from `from` to the farthest corner of a box.
 double reach(const Box& box, const Vec3& from) {
   return (box.max - from).cwiseAbs().cwiseMax((box.min - from).cwiseAbs()).norm();
 }
@@ -202,8 +205,9 @@ double reach(const Box& box, const Vec3& from) {
 
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library) {
   ReadyBreak ready;
-  ready.sphere = {command.X_RP.position, command.radius_m, command.spared, command.smallest_m3};
-  const bool whole = ready.sphere.is_endless();
+  ready.sphere = {command.X_RP.position, command.radius_m, command.unbreakable,
+                  command.smallest_m3};
+  const bool whole = ready.sphere.is_infinite();
   const double unit = whole ? reach(bounds_R, ready.sphere.center_R) : ready.sphere.radius_m;
   ready.pattern =
       command.plug

@@ -1,4 +1,4 @@
-// Fracture by patterns behind the Breaker seam (paper 3.1, 3.2).
+// Implements the Breaker interface with fracture patterns (paper 3.1, 3.2).
 #pragma once
 
 #include <memory>
@@ -11,20 +11,20 @@
 
 namespace sunder::fracture {
 
-/// A command made ready to be carried out: its pattern, where that lies, and how far it reaches.
+/// A command with its pattern, the placement of the pattern and the volume that breaks.
 struct ReadyBreak {
   std::shared_ptr<const Pattern> pattern;
   Placement placement;
   ImpactSphere sphere;
 };
-/// What a command means for a compound in the box `bounds_R`.
+/// Prepares a command for a compound or structure with the bounding box `bounds_R`.
 ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library);
 
-/// Carries a command out on a compound that is broken once: its pieces, what is left of it first.
+/// Executes a command on a compound broken once; returns its pieces, the remaining compound first.
 BreakPlan break_compound(const Compound& compound, const BreakCommand& command);
 
-/// Breaks structures by the pattern of the command; patterns are made once and kept. What goes
-/// wrong is noted in `log`, if there is one.
+/// Returns a breaker that breaks structures by the pattern of the command and caches patterns.
+/// Failed cuts are recorded in `log` unless it is null.
 std::unique_ptr<Breaker> make_pattern_breaker(std::shared_ptr<FailureLog> log = nullptr);
 
 }  // namespace sunder::fracture

@@ -10,20 +10,27 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kThinnest = 1 / 4.17;  // thickness over width: see perforation_energy_J()
-constexpr double kCrackSpeed = 0.45;    // of cracks, over that of shear waves (glass: 1500 m/s)
-constexpr double kSpall = 1.5;          // width of the ring around the plug, over that of the plug
-constexpr double kSpalls = 9;           // energies that drive a plug out, from which there is one
-constexpr int kMostRings = 8;           // of a web around the plug
-// A striker whose plug is more than this share of a solid breaks that as a whole.
-constexpr double kWidest = 0.3;
-constexpr double kClearance = 1.12;   // of a hole, over what goes through
-constexpr double kMostTaken = 0.999;  // of the energy, so that some is left to share out
+constexpr double kMinThickness =
+    1 / 4.17;                         // Least thickness over width; see perforation_energy_J().
+constexpr double kCrackSpeed = 0.45;  // Speed of cracks over that of shear waves (glass: 1500 m/s).
+constexpr double kSpallRingWidth =
+    1.5;  // Outer width of the spall ring over the width of the plug.
+constexpr double kSpallEnergyRatio =
+    9;                         // Energy over that of the plug, from which the far face spalls.
+constexpr int kMostRings = 8;  // Limit of the rings of a web around the plug.
+// A striker whose plug would have more than this share of the solid's volume breaks all of it.
+constexpr double kMaxPlugShare = 0.3;
+// A crater with more than this share of the solid's cross-section breaks all of a narrow solid.
+constexpr double kMaxCraterShare = kMaxPlugShare;
+constexpr double kHoleClearance = 1.12;  // Width of the hole over that of the striker.
+// Share of the impact energy that perforation may take; the rest is distributed.
+constexpr double kMaxEnergyShare = 0.999;
+// some must be left to distribute.
 // A crater deeper than this share of its width needs a solid that goes on around it.
-constexpr double kShallow = 0.25;
-constexpr double kSlice = 0.7;  // thickness of a slice of the plug, over its width
+constexpr double kMaxShallowDepth = 0.25;
+constexpr double kSliceThickness = 0.7;  // Thickness of a slice of the plug, over its width.
 
-/// Area (positive if counter-clockwise in x and z) and centroid of a polygon.
+/// Returns the area (positive if counter-clockwise in x and z) and the centroid of a polygon.
 std::pair<double, Vec2> measure(const std::vector<Vec2>& polygon) {
   double twice_m2 = 0;
   Vec2 moment = Vec2::Zero();
@@ -43,7 +50,7 @@ double perimeter_m(const std::vector<Vec2>& polygon) {
   return sum_m;
 }
 
-/// A rotation whose second column is `y`, and whose first is as near as may be to `near_x`.
+/// Returns a rotation with second column `y` and the first as close as possible to `near_x`.
 Mat3 axes_along(const Vec3& y, const Vec3& near_x) {
   const Vec3 x = (near_x - near_x.dot(y) * y).normalized();
   Mat3 axes;
@@ -51,7 +58,7 @@ Mat3 axes_along(const Vec3& y, const Vec3& near_x) {
   return axes;
 }
 
-/// Length of the cracks of a web of that many rings, seen along the axis.
+/// Returns the length of the cracks of a web of `rings` rings, seen along the axis.
 double crack_length_m(const Plug& plug, double radius_m, int rings) {
   double length_m = static_cast<double>(plug.section_m.size()) * (plug.reach_m - radius_m);
   for (int ring = 0; ring <= rings; ++ring)
@@ -60,44 +67,45 @@ double crack_length_m(const Plug& plug, double radius_m, int rings) {
   return length_m;
 }
 
-/// Adds the rings that the energy left can pay for: of a web, as far as cracks run while the
-/// striker passes; of other patterns, one in which the far face spalls.
-void add_rings(const Material& material, const Hit& hit, double radius_m, Plug& plug) {
+/// Adds as many rings as the remaining energy pays for: to a web, as far as cracks run while the
+/// striker passes; to other patterns one ring, if the far face spalls.
+void add_rings(const Material& material, const StructureImpact& hit, double radius_m, Plug& plug) {
   const double left_J = kCrackShare * (hit.energy_J - plug.energy_J);
   const double affordable_m = left_J / (material.toughness_J_m2 * plug.depth_m);
   const PatternSpec::Kind kind = material.pattern.kind;
   const bool is_web = kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial;
   const double run_m =
       kCrackSpeed * material.shear_wave_m_s() * (plug.depth_m + 2 * radius_m) / hit.speed_m_s;
-  const double most_m = is_web ? material.impact_radius_m : kSpall * radius_m;
+  const double most_m = is_web ? material.impact_radius_m : kSpallRingWidth * radius_m;
   plug.reach_m = std::min({radius_m + run_m, material.impact_radius_m, most_m});
-  const int most = is_web ? kMostRings : hit.energy_J > kSpalls * plug.energy_J ? 1 : 0;
+  const int most = is_web ? kMostRings : hit.energy_J > kSpallEnergyRatio * plug.energy_J ? 1 : 0;
   if (!(plug.reach_m > 1.1 * radius_m)) return;
   while (plug.rings < most && crack_length_m(plug, radius_m, plug.rings + 1) < affordable_m)
     ++plug.rings;
 }
 
-/// Shortens a plug that the energy does not carry through to a crater of that energy, and narrows
-/// its section as that of a round nose; `width_m` and `area_m2` go with it. Returns false if the
-/// solid is too narrow there, and breaks as a whole.
-bool become_crater(const Hit& hit, double& width_m, double& area_m2, Plug& plug) {
-  const double share = kMostTaken * hit.energy_J / plug.energy_J;
+/// Shortens a plug that the striker cannot drive out to a crater of the impact's energy, and
+/// narrows its section to that of a round nose; updates `width_m` and `area_m2`. Returns false if
+/// the solid is too narrow there and breaks as a whole.
+bool become_crater(const StructureImpact& hit, double& width_m, double& area_m2, Plug& plug) {
+  const double share = kMaxEnergyShare * hit.energy_J / plug.energy_J;
   plug.energy_J *= share;
-  plug.depth_m *= std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // E goes by e^(8/3)
-  if (!hit.confined && plug.depth_m > kShallow * width_m) return false;
+  plug.depth_m *=
+      std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // The energy grows as depth^(8/3).
+  if (!hit.confined && plug.depth_m > kMaxShallowDepth * width_m) return false;
   const double part = std::min(1.0, 2 * plug.depth_m / width_m);
   const double scale = std::sqrt(part * (2 - part));
   for (Vec2& corner : plug.section_m) corner *= scale;
   width_m *= scale, area_m2 *= scale * scale;
   const double size_m = std::cbrt(hit.volume_m3);
-  return hit.confined || !(area_m2 > kWidest * size_m * size_m);
+  return hit.confined || !(area_m2 > kMaxCraterShare * size_m * size_m);
 }
 
 }  // namespace
 
 double perforation_energy_J(const Material& material, double width_m, double thickness_m,
                             double mass_kg) {
-  if (!(material.compressive_Pa > 0) || thickness_m < kThinnest * width_m) return 0;
+  if (!(material.compressive_Pa > 0) || thickness_m < kMinThickness * width_m) return 0;
   const double slenderness = width_m * thickness_m * thickness_m / mass_kg;
   const double squared_m2_s2 = 1.7 * (material.reinforcement_percent + 0.3) *
                                material.compressive_Pa * std::cbrt(material.density_kg_m3) *
@@ -105,8 +113,8 @@ double perforation_energy_J(const Material& material, double width_m, double thi
   return 0.5 * mass_kg * squared_m2_s2;
 }
 
-std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Vec3& axis_R,
-                              Pose& X_RP) {
+std::optional<Plug> make_plug(const Material& material, const StructureImpact& hit,
+                              const Vec3& axis_R, Pose& X_RP) {
   Plug plug;
   plug.depth_m = hit.thickness_m * hit.direction_R.dot(axis_R);
   if (hit.section_R.empty() || !hit.narrow || !(plug.depth_m > 0)) return {};
@@ -118,27 +126,27 @@ std::optional<Plug> make_plug(const Material& material, const Hit& hit, const Ve
   auto [area_m2, middle_m] = measure(plug.section_m);
   if (area_m2 < 0) std::ranges::reverse(plug.section_m);
   area_m2 = std::abs(area_m2);
-  if (area_m2 * plug.depth_m > kWidest * hit.volume_m3) return {};
+  if (area_m2 * plug.depth_m > kMaxPlugShare * hit.volume_m3) return {};
   for (Vec2& corner : plug.section_m) corner -= middle_m;
   X_RP = {hit.point_R + axes * Vec3(middle_m.x(), 0, middle_m.y()), Quat(axes).normalized()};
   plug.solid_m = plug.depth_m;
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
   plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
-  plug.through = plug.energy_J <= kMostTaken * hit.energy_J;
+  plug.through = plug.energy_J <= kMaxEnergyShare * hit.energy_J;
   if (plug.through ? !hit.confined : !hit.held) return {};
   if (!plug.through && !become_crater(hit, width_m, area_m2, plug)) return {};
   plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
   if (plug.through)
-    for (Vec2& corner : plug.section_m) corner *= kClearance;
+    for (Vec2& corner : plug.section_m) corner *= kHoleClearance;
   plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
-  if (!plug.through) {  // one piece: several would be wedged in the crater
-    if (smaller_m3 < material.smallest_broken_m3()) plug.section_m.clear();
+  if (!plug.through) {  // A crater is one piece; several would jam in it.
+    if (smaller_m3 < material.min_breakable_volume_m3()) plug.section_m.clear();
     return plug;
   }
   const auto parts = static_cast<double>(plug.section_m.size() + 1);
   plug.split = smaller_m3 > parts * material.smallest_piece_m3;
-  plug.slice_m = kSlice * width_m;
+  plug.slice_m = kSliceThickness * width_m;
   add_rings(material, hit, width_m / 2, plug);
   return plug;
 }

@@ -29,7 +29,7 @@ void Reassembly::find_neighbours() {
   };
   for (const ConvexSlot slot : touched_) {
     for (const Link& link : structure_.links(slot)) add(link.other);
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       for (const std::uint32_t other : structure_.ghost(number).of) add(ConvexSlot(other));
     }
   }
@@ -37,7 +37,7 @@ void Reassembly::find_neighbours() {
   neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
 }
 
-/// The faces by which neighbours touched what was cut.
+/// Appends the neighbours and the faces in which they touched convexes that were cut.
 void Reassembly::add_neighbours(std::vector<ConvexPtr>& convexes,
                                 std::vector<FaceEntry>& faces) const {
   for (std::uint32_t i = 0; i < neighbours_.size(); ++i) {
@@ -58,14 +58,14 @@ void Reassembly::add_neighbours(std::vector<ConvexPtr>& convexes,
   faces.erase(std::unique(faces.begin(), faces.end(), same), faces.end());
 }
 
-/// Ghosts that weigh, by nodes: those that were cut, and those among neighbours, of which only the
-/// faces count that are in the planes given.
+/// Appends the ghosts that count in sums of area, by nodes, and returns them: those that were cut,
+/// with all faces, and those among neighbours, with faces only in planes that `faces` has already.
 std::vector<Ghost> Reassembly::add_ghosts(std::vector<ConvexPtr>& convexes,
                                           std::vector<FaceEntry>& faces) const {
   std::vector<Ghost> ghosts = ghosts_;
   std::vector<std::uint32_t> known;
   for (const ConvexSlot slot : neighbours_) {
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       if (!is_any_touched(structure_.ghost(number))) known.push_back(number);
     }
   }
@@ -94,7 +94,7 @@ std::vector<Ghost> Reassembly::add_ghosts(std::vector<ConvexPtr>& convexes,
 
 void Reassembly::find_contacts_of_fragments() {
   find_neighbours();
-  // Neighbours first, then fragments: the order of nodes; then ghosts.
+  // The order is that of nodes: neighbours, then fragments; ghosts follow.
   std::vector<ConvexPtr> convexes;
   std::vector<FaceEntry> faces;
   add_neighbours(convexes, faces);
@@ -106,7 +106,7 @@ void Reassembly::find_contacts_of_fragments() {
   const std::vector<Ghost> ghosts = add_ghosts(convexes, faces);
   for (const Bond& bond : find_contacts(convexes, faces)) {
     if (bond.b >= count) {
-      correct(bond, count, ghosts);
+      add_correction(bond, count, ghosts);
     } else {
       contacts_.push_back(
           {node_of(bond.a), node_of(bond.b), bond.face_a, bond.face_b, bond.area_m2});
@@ -114,9 +114,9 @@ void Reassembly::find_contacts_of_fragments() {
   }
 }
 
-/// Puts down a contact with at least one ghost to the first convexes of ghosts that have the face.
-void Reassembly::correct(const Bond& bond, std::uint32_t convexes,
-                         const std::vector<Ghost>& ghosts) {
+/// Records a contact of a ghost as one between the first convexes of the ghosts that have its face.
+void Reassembly::add_correction(const Bond& bond, std::uint32_t convexes,
+                                const std::vector<Ghost>& ghosts) {
   Correction correction{{0, 0, bond.face_a, bond.face_b, bond.area_m2}, 1};
   const auto resolve = [&](std::uint32_t index, std::uint32_t& node, std::uint32_t& face) {
     if (index < convexes) {
@@ -142,24 +142,25 @@ void Reassembly::correct(const Bond& bond, std::uint32_t convexes,
   }
 }
 
-/// What comes off, as islands of one group: the rest's smaller islands, then groups in order.
+/// Returns the nodes of each piece that comes off: first the smaller islands of the rest, then the
+/// islands of each group, in order of groups.
 std::vector<std::vector<std::uint32_t>> Reassembly::find_pieces() {
   std::vector<std::vector<std::uint32_t>> pieces;
-  separate_rest(pieces);
-  join_groups(pieces);
+  find_islands_of_rest(pieces);
+  find_islands_of_groups(pieces);
   return pieces;
 }
 
-void Reassembly::join_rest(std::uint32_t a, std::uint32_t b) {
+void Reassembly::link_rest(std::uint32_t a, std::uint32_t b) {
   if (group(a) != Fragment::kRest || group(b) != Fragment::kRest) return;
   rest_contacts_[a].push_back(b);
   rest_contacts_[b].push_back(a);
 }
 
-void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
-  for (const Contact& contact : contacts_) join_rest(contact.a, contact.b);
+void Reassembly::find_islands_of_rest(std::vector<std::vector<std::uint32_t>>& pieces) {
+  for (const Contact& contact : contacts_) link_rest(contact.a, contact.b);
   for (const Ghost& ghost : ghosts_) {
-    for (const std::uint32_t node : ghost.of) join_rest(ghost.of[0], node);
+    for (const std::uint32_t node : ghost.of) link_rest(ghost.of[0], node);
   }
   std::vector<std::uint32_t> seeds;
   for (const ConvexSlot slot : neighbours_) seeds.push_back(slot.value);
@@ -175,7 +176,7 @@ void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) 
     for (const Link& link : structure_.links(slot)) {
       if (!is_touched(link.other)) visit(link.other.value);
     }
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       for (const std::uint32_t other : structure_.ghost(number).of) {
         if (!is_touched(ConvexSlot(other))) visit(other);
       }
@@ -186,14 +187,14 @@ void Reassembly::separate_rest(std::vector<std::vector<std::uint32_t>>& pieces) 
     for (const std::uint32_t node : rest.islands[i]) known += is_fragment(node) ? 0 : 1;
     if (rest.islands[i].size() > rest.islands[largest].size()) largest = i;
   }
-  // Where nothing else is left, the largest island is the structure from now on.
+  // If the search covered the whole rest, its largest island is the remaining structure.
   if (!rest.bulk && known == structure_.size() && !rest.islands.empty()) {
     rest.islands.erase(rest.islands.begin() + static_cast<std::ptrdiff_t>(largest));
   }
   pieces = std::move(rest.islands);
 }
 
-void Reassembly::join_groups(std::vector<std::vector<std::uint32_t>>& pieces) const {
+void Reassembly::find_islands_of_groups(std::vector<std::vector<std::uint32_t>>& pieces) const {
   std::vector<Bond> bonds;
   for (const Contact& contact : contacts_) {
     if (!is_fragment(contact.a) || !is_fragment(contact.b)) continue;
@@ -231,7 +232,7 @@ Compound Reassembly::make_piece(const std::vector<std::uint32_t>& nodes) const {
       piece.bonds.push_back(
           {i, place(link.other.value).second, link.face, link.other_face, link.area_m2});
     }
-    for (const std::uint32_t number : structure_.ghosts_of(slot)) {
+    for (const std::uint32_t number : structure_.ghost_indices(slot)) {
       Ghost ghost = structure_.ghost(number);
       if (ghost.of[0] != node || is_any_touched(ghost)) continue;
       for (std::uint32_t& of : ghost.of) of = place(of).second;
@@ -241,7 +242,7 @@ Compound Reassembly::make_piece(const std::vector<std::uint32_t>& nodes) const {
   return piece;
 }
 
-/// Gives the ghosts that were cut to the pieces of their convexes, which are held together.
+/// Moves the ghosts that were cut to the piece of their convexes, which is one piece.
 void Reassembly::place_ghosts(BreakEdit& edit) const {
   for (Ghost ghost : ghosts_) {
     const std::uint32_t piece = place(ghost.of[0]).first;
@@ -255,7 +256,7 @@ void Reassembly::place_ghosts(BreakEdit& edit) const {
   for (Compound& piece : edit.loose.pieces) sort_ghosts(piece.ghosts);
 }
 
-/// What stays with the structure: fragments of the rest that did not come off get slots.
+/// Assigns slots to those fragments of the rest that stay in the structure.
 void Reassembly::keep_rest(BreakEdit& edit) {
   for (std::uint32_t i = 0; i < fragments_.size(); ++i) {
     if (places_.count(first_fragment_ + i)) continue;

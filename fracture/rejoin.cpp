@@ -11,7 +11,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/geometry/polygon_mesh.h"
-#include "engine/model/bend.h"
+#include "engine/model/bent_section.h"
 #include "fracture/adjacency/adjacency.h"
 
 namespace sunder::fracture {
@@ -22,26 +22,27 @@ class Rejoining {
   explicit Rejoining(const BentPair& bent) : bent_(bent) {}
 
   Rejoined run() {
-    if (!end_sections() || wall_ends() || !lets_end(bent_.a, 0) || !lets_end(bent_.b, 1) ||
-        !weigh_ends())
+    if (!fit_to_meeting_planes() || is_support_changed() || !can_change(bent_.a, 0) ||
+        !can_change(bent_.b, 1) || !conserve_mass())
       return {};
-    take_in();
+    merge_b();
     return std::move(result_);
   }
 
  private:
-  using Endings = std::map<ConvexSlot, ConvexPtr>;
+  using ChangedConvexes = std::map<ConvexSlot, ConvexPtr>;
 
-  /// A name for all time that nothing else has, of a plane that had that name in b.
-  PlaneId fresh(PlaneId old) const {
+  /// Returns a permanent, unique id for a plane that has the id `old` in b.
+  PlaneId new_id(PlaneId old) const {
     return {combine(bent_.event, old.value >> 1) << 1 | (old.value & 1)};
   }
-  /// What a plane in which a section ends is called in b until that is moved: names of planes are
-  /// small numbers, or random.
-  static PlaneId name_in_b(std::size_t section) { return {~std::uint64_t{2 * section}}; }
+  /// Returns the id that the meeting plane of a section has in b until b is moved. It collides with
+  /// none, as other ids are small or random.
+  static PlaneId temporary_id(std::size_t section) { return {~std::uint64_t{2 * section}}; }
 
-  /// What ends in other planes, on both sides; false if they are bent too far.
-  bool end_sections() {
+  /// Moves the ends of the convexes on both sides of each section to its meeting plane; returns
+  /// false if a section is bent too far.
+  bool fit_to_meeting_planes() {
     for (std::size_t i = 0; i < bent_.sections.size(); ++i) {
       const BentSection& s = bent_.sections[i];
       const BentSide a{bent_.a,  s.slots_a, s.faces_a, s.areas_m2, {s.centroid_A, s.normal_A},
@@ -50,32 +51,32 @@ class Rejoining {
                        s.reach_m};
       const std::optional<MeetingPlane> meeting = meeting_plane(a, b, bent_.X_AB);
       if (!meeting) return false;
-      const PlaneId in_b = name_in_b(i);
-      PlaneId name = fresh(in_b);  // on b's side
-      if (!meeting->ends_a) name = meeting->of_wall.opposite();
-      if (!meeting->ends_b) name = fresh(meeting->of_wall);
-      moved_names_[in_b] = name;
-      if (meeting->ends_a) end(a, meeting->planes.a, name.opposite(), 0);
-      if (meeting->ends_b) end(b, meeting->planes.b, in_b, 1);
-      ends_.emplace_back(meeting->ends_a, meeting->ends_b);
+      const PlaneId id_in_b = temporary_id(i);
+      PlaneId id = new_id(id_in_b);  // On the side of b.
+      if (!meeting->ends_a) id = meeting->of_wall.opposite();
+      if (!meeting->ends_b) id = new_id(meeting->of_wall);
+      final_ids_[id_in_b] = id;
+      if (meeting->ends_a) change_side(a, meeting->planes.a, id.opposite(), 0);
+      if (meeting->ends_b) change_side(b, meeting->planes.b, id_in_b, 1);
+      ends_here_.emplace_back(meeting->ends_a, meeting->ends_b);
     }
     return true;
   }
 
-  /// A convex that is of two sections ends in both, one after the other: not yet.
-  void end(const BentSide& side, const Plane& plane, PlaneId id, std::size_t which) {
+  /// Two sections that change one convex are not supported: sets `changed_twice_`.
+  void change_side(const BentSide& side, const Plane& plane, PlaneId id, std::size_t which) {
     for (Ended& ended : end_side(side, plane, id)) {
-      const bool once = ended_[which].emplace(ended.slot, std::move(ended.convex)).second;
-      twice_ |= !once;
+      const bool once = changed_[which].emplace(ended.slot, std::move(ended.convex)).second;
+      changed_twice_ |= !once;
     }
   }
 
-  /// Whether what ends overlaps nothing, and the world holds on to what it held.
-  bool lets_end(const Structure& structure, int side) const {
-    return !twice_ && std::ranges::all_of(ended_[side], [&](const auto& one) {
+  /// Returns true if no changed convex overlaps another, and each anchored one keeps an anchor.
+  bool can_change(const Structure& structure, int side) const {
+    return !changed_twice_ && std::ranges::all_of(changed_[side], [&](const auto& one) {
       const auto& [slot, convex] = one;
       const bool held = structure.anchored(slot) == 0 || anchors(structure, slot, convex) != 0;
-      return held && structure.ghosts_of(slot).empty();
+      return held && structure.ghost_indices(slot).empty();
     });
   }
 
@@ -84,26 +85,26 @@ class Rejoining {
     return inherited_anchors(structure.anchored(slot), structure.convex(slot)->box, ended->box);
   }
 
-  /// Whether what one section ends on ends otherwise by another.
-  bool wall_ends() const {
-    const auto any = [&](std::span<const std::uint32_t> slots, const Endings& endings) {
+  /// Returns true if a convex that one section leaves as it is is changed by another.
+  bool is_support_changed() const {
+    const auto any = [&](std::span<const std::uint32_t> slots, const ChangedConvexes& changed) {
       return std::ranges::any_of(slots,
-                                 [&](auto slot) { return endings.contains(ConvexSlot(slot)); });
+                                 [&](auto slot) { return changed.contains(ConvexSlot(slot)); });
     };
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      if (!ends_[i].first && any(bent_.sections[i].slots_a, ended_[0])) return true;
-      if (!ends_[i].second && any(bent_.sections[i].slots_b, ended_[1])) return true;
+    for (std::size_t i = 0; i < ends_here_.size(); ++i) {
+      if (!ends_here_[i].first && any(bent_.sections[i].slots_a, changed_[0])) return true;
+      if (!ends_here_[i].second && any(bent_.sections[i].slots_b, changed_[1])) return true;
     }
     return false;
   }
 
-  /// Into the rest frame of a, with names of its own: what lay in one plane with a before lies in
-  /// another now.
+  /// Returns a convex of b in the rest frame of a with new plane ids: planes that a and b shared
+  /// before the bend differ now.
   ConvexPtr moved(const Convex& convex) const {
     const auto renamed = [&](PlaneId id) -> PlaneId {
       if (id.none()) return id;
-      const auto at = moved_names_.find(id);
-      return at != moved_names_.end() ? at->second : fresh(id);
+      const auto at = final_ids_.find(id);
+      return at != final_ids_.end() ? at->second : new_id(id);
     };
     auto result = std::make_shared<Convex>(convex);
     result->polyhedron = transformed(convex.polyhedron, bent_.X_AB);
@@ -128,31 +129,32 @@ class Rejoining {
     return result;
   }
 
-  /// What has ended weighs what it did, of each material; false if one has gone altogether.
-  bool weigh_ends() {
+  /// Scales the changed convexes to the mass that each material had before; returns false if a
+  /// material has nothing left.
+  bool conserve_mass() {
     struct Volume {
       double before = 0, after = 0;
     };
     std::map<MaterialIndex, Volume> volumes;
     for (int side = 0; side < 2; ++side) {
       const Structure& structure = side == 0 ? bent_.a : bent_.b;
-      for (const auto& [slot, convex] : ended_[side]) {
+      for (const auto& [slot, convex] : changed_[side]) {
         const Convex& old = *structure.convex(slot);
         volumes[old.material].before += old.solid.volume_m3;
         if (convex) volumes[old.material].after += convex->solid.volume_m3;
       }
     }
-    for (Endings& endings : ended_) {
-      for (auto& [slot, convex] : endings) {
+    for (ChangedConvexes& changed : changed_) {
+      for (auto& [slot, convex] : changed) {
         if (!convex) continue;
         const Volume& volume = volumes[convex->material];
-        convex = weighing(*convex, volume.before / volume.after);
+        convex = with_scaled_mass(*convex, volume.before / volume.after);
       }
     }
     return std::ranges::all_of(volumes, [](const auto& one) { return one.second.after > 0; });
   }
 
-  static ConvexPtr weighing(const Convex& convex, double share) {
+  static ConvexPtr with_scaled_mass(const Convex& convex, double share) {
     auto result = std::make_shared<Convex>(convex);
     result->solid.volume_m3 *= share;
     result->solid.second_moment *= share;
@@ -166,21 +168,21 @@ class Rejoining {
     return static_cast<std::uint32_t>(bent_.a.slot_count() + edit.added.size() - 1);
   }
 
-  void take_in() {
+  void merge_b() {
     BreakEdit& edit = result_.edit;
     edit.changed = true;
     result_.slot_of_b.assign(bent_.b.slot_count(), ConvexSlot());
-    for (const auto& [slot, convex] : ended_[0]) {
+    for (const auto& [slot, convex] : changed_[0]) {
       edit.removed.push_back(slot);
       if (!convex) continue;
-      fresh_.push_back(add(convex, anchors(bent_.a, slot, convex)));
+      changed_slots_.push_back(add(convex, anchors(bent_.a, slot, convex)));
     }
     bent_.b.for_each([&](ConvexSlot slot, const Convex& convex) {
-      const auto ended = ended_[1].find(slot);
-      if (ended == ended_[1].end()) {
+      const auto ended = changed_[1].find(slot);
+      if (ended == changed_[1].end()) {
         result_.slot_of_b[slot.value] = ConvexSlot(add(moved(convex), 0));
       } else if (ended->second) {
-        fresh_.push_back(add(moved(*ended->second), 0));
+        changed_slots_.push_back(add(moved(*ended->second), 0));
       }
     });
     keep_bonds_of_b();
@@ -206,25 +208,25 @@ class Rejoining {
     return slot < first ? bent_.a.convex(ConvexSlot(slot)) : result_.edit.added[slot - first];
   }
 
-  /// Those of what ends otherwise: with each other, and with what was beside it.
+  /// Finds the bonds of changed convexes with each other and with their neighbours.
   void find_new_bonds() {
-    std::map<std::uint32_t, std::vector<std::uint32_t>> beside;  // by slot of a, and faces
+    std::map<std::uint32_t, std::vector<std::uint32_t>> beside;  // Slot of a: faces.
     for (int side = 0; side < 2; ++side) {
       const Structure& structure = side == 0 ? bent_.a : bent_.b;
-      for (const auto& [slot, convex] : ended_[side]) {
+      for (const auto& [slot, convex] : changed_[side]) {
         for (const Link& link : structure.links(slot)) {
-          if (ended_[side].contains(link.other)) continue;
+          if (changed_[side].contains(link.other)) continue;
           const std::uint32_t other =
               side == 0 ? link.other.value : place_in_a(link.other.value).value;
           beside[other].push_back(link.other_face);
         }
       }
     }
-    for (std::size_t i = 0; i < ends_.size(); ++i) {  // what they end on
+    for (std::size_t i = 0; i < ends_here_.size(); ++i) {  // Convexes that the changed ones end on.
       const BentSection& s = bent_.sections[i];
       for (std::size_t k = 0; k < s.slots_a.size(); ++k) {
-        if (!ends_[i].first) beside[s.slots_a[k]].push_back(s.faces_a[k]);
-        if (!ends_[i].second) beside[place_in_a(s.slots_b[k]).value].push_back(s.faces_b[k]);
+        if (!ends_here_[i].first) beside[s.slots_a[k]].push_back(s.faces_a[k]);
+        if (!ends_here_[i].second) beside[place_in_a(s.slots_b[k]).value].push_back(s.faces_b[k]);
       }
     }
     std::vector<std::uint32_t> slots;
@@ -239,7 +241,7 @@ class Rejoining {
       slots.push_back(slot);
       convexes.push_back(convex(slot));
     }
-    for (const std::uint32_t slot : fresh_) {
+    for (const std::uint32_t slot : changed_slots_) {
       add_faces(*convex(slot), next(), faces);
       slots.push_back(slot);
       convexes.push_back(convex(slot));
@@ -254,7 +256,7 @@ class Rejoining {
   void keep_ghosts_of_b() {
     std::set<std::uint32_t> numbers;
     bent_.b.for_each([&](ConvexSlot slot, const Convex&) {
-      for (const std::uint32_t number : bent_.b.ghosts_of(slot)) numbers.insert(number);
+      for (const std::uint32_t number : bent_.b.ghost_indices(slot)) numbers.insert(number);
     });
     for (const std::uint32_t number : numbers) {
       Ghost ghost = bent_.b.ghost(number);
@@ -265,12 +267,12 @@ class Rejoining {
   }
 
   const BentPair& bent_;
-  Endings ended_[2];
-  bool twice_ = false;
-  std::map<PlaneId, PlaneId> moved_names_;  ///< Of the planes in which b ends, once it is moved.
-  /// Per section, whether either side ends there.
-  std::vector<std::pair<bool, bool>> ends_;
-  std::vector<std::uint32_t> fresh_;  ///< Slots of what ends otherwise, in a.
+  ChangedConvexes changed_[2];
+  bool changed_twice_ = false;
+  std::map<PlaneId, PlaneId> final_ids_;  ///< By temporary id.
+  /// Per section: true if side a, or b, ends in the meeting plane.
+  std::vector<std::pair<bool, bool>> ends_here_;
+  std::vector<std::uint32_t> changed_slots_;  ///< Slots of changed convexes, in a.
   Rejoined result_;
 };
 

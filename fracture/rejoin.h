@@ -1,12 +1,12 @@
-// Two solids that sections held together while they bent become one again.
+// Joins two solids, held together by plastic hinges while they bent, into one again.
 #pragma once
 
 #include "engine/model/breaker.h"
 
 namespace sunder::fracture {
 
-/// See Breaker::rejoin(). They stay two where they are bent too far for a mitre, or where what the
-/// bend reaches overlaps something, or would be let go by what the world holds it by.
+/// Implements Breaker::rejoin(). The solids stay separate if they are bent too far for a mitre
+/// joint, or if a convex that the mitre changes overlaps another or would lose its anchor.
 Rejoined rejoin_bent(const BentPair& bent);
 
 }  // namespace sunder::fracture

@@ -17,7 +17,8 @@ namespace sunder::fracture {
 namespace {
 
 constexpr MaterialIndex kMaterial(0u);
-// Of a grid; of cells, which take half a minute; of columns, each of which meets the roof.
+// Limits of a grid's boxes, of Voronoi cells (which take half a minute), and of a hall's columns,
+// each of which overlaps with the roof.
 constexpr double kMostBoxes = 1e6, kMostCells = 1e5, kMostColumns = 5000;
 
 Vec2 on_circle(double radius, int i, int segments) {
@@ -33,7 +34,7 @@ Compound column_compound(double radius, double height) {
   return make_compound({{make_prism(polygon, -height / 2, height / 2, true), kMaterial, 0}});
 }
 
-/// A torus around y as hulls of neighbouring circles.
+/// Returns a torus around y, one hull of two neighbouring circles per segment.
 Compound torus_compound(double large, double small) {
   constexpr int kSegments = 16, kSides = 8;
   std::vector<Part> parts;
@@ -51,7 +52,7 @@ Compound torus_compound(double large, double small) {
   return make_compound(std::move(parts));
 }
 
-/// Columns under a roof that they reach into, as artists model it (paper, figure 12).
+/// Returns columns that overlap with the roof, as artists model them (paper, figure 12).
 Compound hall_compound(int columns) {
   constexpr double kSpan = 3, kHeight = 3, kRadius = 0.3, kRoof = 0.5, kReach = 0.2;
   constexpr int kSides = 12;

@@ -20,7 +20,7 @@ class FixedCamera final : public Camera {
   View at(const Frame& frame) override { return frame.view; }
 };
 
-/// About the vertical through what is looked at.
+/// Orbits about the vertical through the target.
 class OrbitCamera final : public Camera {
  public:
   explicit OrbitCamera(double period_s) : period_s_(period_s) {}
@@ -63,7 +63,7 @@ double parse_period(const std::string& spec, const std::string& text) {
 }  // namespace
 
 View above_ground(View view) {
-  constexpr double kClear = 0.02;  // of the way to what is looked at
+  constexpr double kClear = 0.02;  // height above the ground / distance to the target
   const double lowest_m = view.ground_m + kClear * (view.eye_W - view.target_W).norm();
   view.eye_W.y() = std::max(view.eye_W.y(), lowest_m);
   return view;

@@ -1,4 +1,4 @@
-// Where a film is shot from: one frame after the other gets its view.
+// Cameras: they give each frame its view.
 #pragma once
 
 #include <memory>
@@ -9,27 +9,28 @@
 
 namespace sunder::render {
 
+/// Gives views to frames, which must come in order of time.
 class Camera {
  public:
   virtual ~Camera() = default;
-  /// How a frame is seen, whose own view is where the camera stands, or stood. Frames come in order
-  /// of time.
+  /// Returns the view of a frame. The frame's own view is the starting point of the camera.
   virtual View at(const Frame& frame) = 0;
-  /// Whether what it shows of a frame depends on those before, back to the first.
-  virtual bool remembers() const { return false; }
+  /// Returns true if the view of a frame depends on all frames before it.
+  virtual bool depends_on_history() const { return false; }
 };
 
-/// What make_camera() understands.
+/// Specifications of make_camera(), for help and messages.
 inline constexpr const char* kCameras = "fixed | orbit[:SECONDS] | follow:NAME | auto";
-/// fixed: as the frames say. orbit: about what they look at, once round in so many seconds of the
-/// run (20); less than 0: the other way round. follow: with a solid or ball of that name, or the
-/// largest piece of it. auto: turned to what moves, as near as shows it. The latter two move
-/// without a jerk. Throws InputError for anything else; at() does for a name that no frame knows.
+/// Makes a camera. fixed: the view of the frames. orbit: a circle about their target with a period
+/// in seconds of the run (default 20); negative: in the opposite direction. follow: with a solid or
+/// ball of that name, or its largest piece. auto: towards what moves, at a distance that shows it.
+/// The latter two move smoothly. Throws InputError for any other specification; at() throws
+/// InputError for a name that is in no frame.
 std::unique_ptr<Camera> make_camera(const std::string& spec);
-/// One that goes through keys.
+/// Makes a camera that follows a path of keys.
 std::unique_ptr<Camera> make_camera(std::vector<ViewKey> keys);
 
-/// The view from a little above the ground where it would be from below.
+/// Returns the view with its eye raised to a little above the ground if it is below.
 View above_ground(View view);
 
 }  // namespace sunder::render

@@ -12,8 +12,8 @@ constexpr double kFollowRate = 5;
 
 }  // namespace
 
-/// The parts "wall.0", "wall.1" … of a structure go by "wall" together, as in scene files.
-void FollowCamera::look_up(const Frame& frame) {
+/// Finds the names that match name_; "wall" matches "wall.0", "wall.1" and so on, as in scenes.
+void FollowCamera::find_names(const Frame& frame) {
   std::string there;
   const std::vector<std::string> none;
   const std::vector<std::string>& names = frame.names ? *frame.names : none;
@@ -29,8 +29,9 @@ void FollowCamera::look_up(const Frame& frame) {
                                         (names.size() > 20 ? " and more" : "")));
 }
 
-/// Of the bodies by the name; or of those that came off what was followed.
-const FrameBody* FollowCamera::largest(const Frame& frame, bool of_followed) {
+/// Returns the largest body with a matching name or, with `of_followed`, the largest that came off
+/// the body followed; null if there is none.
+const FrameBody* FollowCamera::largest_body(const Frame& frame, bool of_followed) {
   std::vector<double> size_m3(frame.bodies.size());
   for (const Instance& instance : frame.instances) {
     const double diagonal_m = sizes_.diagonal_m(frame, instance.mesh);
@@ -41,7 +42,7 @@ const FrameBody* FollowCamera::largest(const Frame& frame, bool of_followed) {
   for (std::size_t b = 0; b < frame.bodies.size(); ++b) {
     const FrameBody& body = frame.bodies[b];
     const bool is_one =
-        of_followed ? body.before_key == *key_ : std::ranges::count(names_, body.name) > 0;
+        of_followed ? body.previous_key == *key_ : std::ranges::count(names_, body.name) > 0;
     if (!is_one || size_m3[b] <= most_m3) continue;
     most_m3 = size_m3[b];
     found = &body;
@@ -49,39 +50,39 @@ const FrameBody* FollowCamera::largest(const Frame& frame, bool of_followed) {
   return found;
 }
 
-/// Null if nothing of it is there.
+/// Returns the body to follow in a frame, or null.
 const FrameBody* FollowCamera::body_in(const Frame& frame) {
-  if (!key_) return largest(frame, false);
+  if (!key_) return largest_body(frame, false);
   const auto same = std::ranges::lower_bound(frame.bodies, *key_, {}, &FrameBody::key);
   if (same != frame.bodies.end() && same->key == *key_) return &*same;
-  const FrameBody* const piece = largest(frame, true);
-  return piece ? piece : largest(frame, false);
+  const FrameBody* const piece = largest_body(frame, true);
+  return piece ? piece : largest_body(frame, false);
 }
 
 View FollowCamera::at(const Frame& frame) {
   const bool is_first = names_.empty();
-  if (is_first) look_up(frame);
+  if (is_first) find_names(frame);
   const double dt_s = is_first ? 0 : frame.time_s - time_s_;
   time_s_ = frame.time_s;
   View view = frame.view;
   const Vec3 arm = view.eye_W - view.target_W;
   const FrameBody* const body = body_in(frame);
   if (!body && !key_) return view;
-  Vec3 pace = Vec3::Zero();
+  Vec3 goal_velocity = Vec3::Zero();
   if (body) {
     const bool goes_on = key_ == body->key && dt_s > 0;
-    pace = goes_on ? Vec3((body->X_WB.position - goal_W_) / dt_s) : body->velocity_W;
+    goal_velocity = goes_on ? Vec3((body->X_WB.position - goal_W_) / dt_s) : body->velocity_W;
     if (is_first) {
-      glide_ = {body->X_WB.position, pace};
+      spring_ = {body->X_WB.position, goal_velocity};
     } else if (!key_) {
-      glide_ = {view.target_W, Vec3::Zero()};
+      spring_ = {view.target_W, Vec3::Zero()};
     }
     key_ = body->key;
     goal_W_ = body->X_WB.position;
   }
-  glide_.on(goal_W_, pace, dt_s, kFollowRate);
-  view.target_W = glide_.at;
-  view.eye_W = glide_.at + arm;
+  spring_.advance(goal_W_, goal_velocity, dt_s, kFollowRate);
+  view.target_W = spring_.position;
+  view.eye_W = spring_.position + arm;
   return above_ground(view);
 }
 

@@ -1,29 +1,29 @@
-// A camera that finds what moves.
+// A camera that frames moving bodies.
 #pragma once
 
 #include <optional>
 
 #include "render/camera.h"
-#include "render/glide.h"
+#include "render/damped_spring.h"
 #include "render/mesh_sizes.h"
 
 namespace sunder::render {
 
-/// Looks at the middle of what moves, from the side of the frames' own view and from so far that
-/// all of that about shows; the less of all there is moves, the less it is drawn there. It begins
-/// with that view, and stays where it is when nothing moves any longer.
+/// Looks at the centre of what moves, in the direction of the frames' own view and from a distance
+/// that shows about all of it. The smaller the moving share of the scene, the slower the camera
+/// turns to it. Starts with the frames' own view, and stays in place when nothing moves.
 class FramingCamera final : public Camera {
  public:
   View at(const Frame& frame) override;
-  bool remembers() const override { return true; }
+  bool depends_on_history() const override { return true; }
 
  private:
-  /// Of the camera: what it looks at, and the logarithm of how far off that is.
+  /// State of the camera: target, and logarithm of the distance to it.
   using Vec4 = Eigen::Vector4d;
   void find_goal(const Frame& frame, double dt_s);
 
   Vec4 goal_ = Vec4::Zero();
-  std::optional<Glide<Vec4>> glide_;
+  std::optional<DampedSpring<Vec4>> spring_;
   double time_s_ = 0;
   MeshSizes sizes_;
 };

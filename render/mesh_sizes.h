@@ -1,4 +1,4 @@
-// How large what is drawn is, about: frames do not say.
+// Approximate sizes of meshes, which frames do not contain.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace sunder::render {
 
-/// Of the meshes of a run, each measured once.
+/// Sizes of the meshes of a run, each computed once.
 class MeshSizes {
  public:
-  /// The diagonal of its box; 0 for a mesh without vertices.
+  /// Returns the diagonal of the bounding box of a mesh, in m; 0 without vertices.
   double diagonal_m(const Frame& frame, MeshIndex mesh) {
     const MeshStore& meshes = *frame.meshes;
     while (known_m_.size() < meshes.size()) {

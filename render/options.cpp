@@ -8,10 +8,11 @@
 namespace sunder::render {
 namespace {
 
-constexpr int kMostPixels = 1 << 24;  // a side; devices draw fewer, and say how many
-constexpr int kMostSamples = 4096;
+// Greatest width and height, in pixels; devices have smaller limits, which they report.
+constexpr int kMaxImageSide = 1 << 24;
+constexpr int kMaxSamples = 4096;
 
-void need(int value, int most, const char* name) {
+void check_range(int value, int most, const char* name) {
   if (value >= 1 && value <= most) return;
   throw InputError(std::string("options.") + name + " is " + std::to_string(value) +
                    "; expected 1 to " + std::to_string(most));
@@ -19,10 +20,10 @@ void need(int value, int most, const char* name) {
 
 }  // namespace
 
-const RenderOptions& checked(const RenderOptions& options) {
-  need(options.width, kMostPixels, "width");
-  need(options.height, kMostPixels, "height");
-  need(options.samples, kMostSamples, "samples");
+const RenderOptions& checked_options(const RenderOptions& options) {
+  check_range(options.width, kMaxImageSide, "width");
+  check_range(options.height, kMaxImageSide, "height");
+  check_range(options.samples, kMaxSamples, "samples");
   check_layers(options.layers);
   return options;
 }

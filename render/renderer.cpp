@@ -1,4 +1,4 @@
-// The list of passes that make a picture. Read first: Renderer::draw().
+// The passes that make an image. Read first: Renderer::draw().
 #include "render/renderer.h"
 
 #include <cmath>
@@ -8,13 +8,13 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "render/frame_interpolation.h"
 #include "render/gl/context.h"
 #include "render/gl/objects.h"
 #include "render/gl/units.h"
 #include "render/image/antialias.h"
 #include "render/image/hud.h"
 #include "render/options.h"
-#include "render/passage.h"
 #include "render/passes/chips.h"
 #include "render/passes/layers.h"
 #include "render/passes/marks.h"
@@ -36,27 +36,27 @@ struct Target {
   int height = 0;
 };
 
-/// What is bound from here on is on that unit, and stays there.
-void take_unit(const GlTable& gl, Unit unit) {
+/// Makes a texture unit active: textures bound from here on are bound to it.
+void activate_unit(const GlTable& gl, Unit unit) {
   gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
 }
 
-/// To draw into, and then to read on a unit of its own.
+/// Makes a target with a texture that stays bound to its own unit.
 Target make_target(const GlTable& gl, Unit unit, GLenum format, int width, int height,
                    GLuint depth = 0) {
-  take_unit(gl, unit);
+  activate_unit(gl, unit);
   const GLuint texture = make_texture(gl, format, width, height);
   return {make_framebuffer(gl, texture, depth), width, height};
 }
 
 Target make_shadow_target(const GlTable& gl, Unit unit, int texels) {
-  take_unit(gl, unit);
+  activate_unit(gl, unit);
   const GLuint texture = make_shadow_texture(gl, texels);
   return {make_framebuffer(gl, 0, texture), texels, texels};
 }
 
-/// From its middle; the first few fill it as evenly as many do (Roberts 2018, the R2 sequence).
-Vec2 place_in_pixel(int sample) {
+/// Returns the offset of a sample from the pixel's centre, by the R2 sequence (Roberts 2018).
+Vec2 jitter_of(int sample) {
   const auto of = [&](double step) {
     const double x = 0.5 + step * sample;
     return x - std::floor(x) - 0.5;
@@ -84,9 +84,9 @@ struct Renderer::Impl {
   Image read_back();
 
   bool gathers() const { return options.samples > 1 || options.transparent; }
-  void begin(const Target& target, GLuint program);
-  /// Ends a pass, and times it if that was asked for.
-  void done(const char* pass);
+  void begin_pass(const Target& target, GLuint program);
+  /// Ends a pass; records its time if options.time_passes is set.
+  void end_pass(const char* pass);
 
   RenderOptions options;
   ViewMode view_mode;
@@ -94,27 +94,27 @@ struct Renderer::Impl {
   const GlTable& gl;
   Programs programs;
   Pieces pieces;
-  CoveredTiles covered;
+  DepthTiles depth_tiles;
   Chips chips;
   Puffs puffs;
   std::optional<Pictures> pictures;
-  std::optional<Layers> layers;  ///< None unless asked for.
+  std::optional<Layers> layers;  ///< Empty if the options name no layers.
   std::vector<Layer> drawn_layers;
-  std::optional<Marks> marks;  ///< None unless the view mode has some.
+  std::optional<Marks> marks;  ///< Empty if the view mode has no marks.
   FrameUniforms uniforms = {};
   GLuint uniform_buffer = 0;
   GLuint material_buffer = 0;
-  GLuint empty_vertex_array = 0;  ///< For passes that need no vertices.
+  GLuint empty_vertex_array = 0;  ///< Vertex array of passes without vertex data.
   Target shadow;
   Target zenith;
   Target light;
   Target open;
   Target blurred;
   Target dust;
-  Target sum;  ///< Of samples.
+  Target sum;  ///< Sum of the samples.
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
-  std::shared_ptr<const std::vector<Paint>> paints;
+  std::shared_ptr<const std::vector<Appearance>> paints;
   std::vector<std::uint32_t> pixels;
   std::vector<PassTime> times;
   Stopwatch watch;
@@ -122,26 +122,26 @@ struct Renderer::Impl {
 };
 
 Renderer::Impl::Impl(const RenderOptions& wanted)
-    : options(checked(wanted)),
+    : options(checked_options(wanted)),
       view_mode(wanted.view_mode),
       context(make_context(wanted.gl)),
       gl(context->gl()),
       programs(make_programs(gl, wanted.samples > 1 || wanted.transparent, wanted.transparent)),
       pieces(gl),
-      covered(gl),
+      depth_tiles(gl),
       chips(gl),
       puffs(gl) {
-  if (view_mode.looks_inside()) marks.emplace(gl);
+  if (view_mode.needs_inspection()) marks.emplace(gl);
   const int w = options.width;
   const int h = options.height;
   const int half_w = (w + 1) / 2;
   const int half_h = (h + 1) / 2;
-  // What is read back alone needs no unit: these are bound where others take their place.
+  // Targets that are only read back need no unit of their own: others are bound over them.
   if (!options.layers.empty()) layers.emplace(gl, options.layers, w, h);
   picture = {make_framebuffer(gl, make_texture(gl, GL_RGBA8, w, h), 0), w, h};
   shadow = make_shadow_target(gl, kShadowUnit, kShadowTexels);
   zenith = make_shadow_target(gl, kZenithUnit, kZenithTexels);
-  take_unit(gl, kDepthUnit);
+  activate_unit(gl, kDepthUnit);
   const GLuint depth = make_texture(gl, GL_DEPTH_COMPONENT24, w, h);
   light = make_target(gl, kLightUnit, GL_RGBA16F, w, h, depth);
   open = make_target(gl, kOpenUnit, GL_RG16F, half_w, half_h);
@@ -150,16 +150,16 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   if (gathers()) sum = make_target(gl, kSumUnit, GL_RGBA32F, w, h);
   pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
 
-  take_unit(gl, kTileUnit);
+  activate_unit(gl, kTileUnit);
   upload_tiles(gl);
-  take_unit(gl, kPictureUnit);
+  activate_unit(gl, kPictureUnit);
   pictures.emplace(gl);
-  take_unit(gl, kSlotUnit);
+  activate_unit(gl, kSlotUnit);
   gl.BindTexture(GL_TEXTURE_BUFFER, pieces.slot_texture());
   GLuint look_texture = 0;
   gl.GenTextures(1, &look_texture);
   gl.GenBuffers(1, &material_buffer);
-  take_unit(gl, kMaterialUnit);
+  activate_unit(gl, kMaterialUnit);
   gl.BindBuffer(GL_TEXTURE_BUFFER, material_buffer);
   gl.BindTexture(GL_TEXTURE_BUFFER, look_texture);
   gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, material_buffer);
@@ -170,13 +170,13 @@ Renderer::Impl::Impl(const RenderOptions& wanted)
   SUNDER_CHECK(gl.GetError() == GL_NO_ERROR);
 }
 
-void Renderer::Impl::begin(const Target& target, GLuint program) {
+void Renderer::Impl::begin_pass(const Target& target, GLuint program) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl.Viewport(0, 0, target.width, target.height);
   gl.UseProgram(program);
 }
 
-void Renderer::Impl::done(const char* pass) {
+void Renderer::Impl::end_pass(const char* pass) {
   if (!options.time_passes) return;
   gl.Finish();
   const std::clock_t now = std::clock();
@@ -186,13 +186,13 @@ void Renderer::Impl::done(const char* pass) {
 }
 
 void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
-  take_unit(gl, kSlotUnit);
+  activate_unit(gl, kSlotUnit);
   pieces.update(frame);
   if (frame.paints != paints) {
     paints = frame.paints;
-    take_unit(gl, kPictureUnit);
-    pictures->update(paints ? *paints : std::vector<Paint>());
-    materials = nullptr;  // whose rows come before those of paints
+    activate_unit(gl, kPictureUnit);
+    pictures->update(paints ? *paints : std::vector<Appearance>());
+    materials = nullptr;  // forces the upload of all rows: those of paints follow the materials'
   }
   if (frame.materials != materials) {
     materials = frame.materials;
@@ -204,7 +204,7 @@ void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
     fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, rows, GL_STATIC_DRAW);
   }
   uniforms = make_uniforms(frame.view, pieces.casters(), options.width, options.height, sample);
-  uniforms.ground_offset[2] = static_cast<float>(kTexelsAMaterial * materials->size());
+  uniforms.ground_offset[2] = static_cast<float>(kTexelsPerMaterial * materials->size());
   gl.BindBuffer(GL_UNIFORM_BUFFER, uniform_buffer);
   gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
   chips.update(frame, uniforms.lens[1], uniforms.to_sun[3]);
@@ -218,33 +218,33 @@ void Renderer::Impl::draw_shadows() {
   gl.CullFace(GL_BACK);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 2);
-  begin(shadow, programs.shadow);
+  begin_pass(shadow, programs.shadow);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  covered.start(seen_by_light(uniforms.shadow_of_eye, kShadowTexels));
-  pieces.draw_shadows(covered);
+  depth_tiles.start(view_of_light(uniforms.shadow_of_eye, kShadowTexels));
+  pieces.draw_shadows(depth_tiles);
   chips.draw_shadows();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
-  done("shadows");
-  begin(zenith, programs.zenith);
+  end_pass("shadows");
+  begin_pass(zenith, programs.zenith);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
-  covered.start(seen_by_light(uniforms.zenith_of_eye, kZenithTexels));
-  pieces.draw_heights(covered);
-  done("zenith");
+  depth_tiles.start(view_of_light(uniforms.zenith_of_eye, kZenithTexels));
+  pieces.draw_heights(depth_tiles);
+  end_pass("zenith");
 }
 
 void Renderer::Impl::draw_pieces() {
-  begin(light, programs.matte);
-  gl.ClearColor(0, 0, 0, 1);  // of what is transparent: all of what is behind it shows
+  begin_pass(light, programs.matte);
+  gl.ClearColor(0, 0, 0, 1);  // alpha 1: everything behind shows through
   gl.Clear(GL_DEPTH_BUFFER_BIT | (options.transparent ? GL_COLOR_BUFFER_BIT : 0u));
   gl.PolygonMode(GL_FRONT_AND_BACK, view_mode.edges() ? GL_LINE : GL_FILL);
-  covered.start(seen_by_camera(uniforms.clip_of_eye, options.width, options.height));
+  depth_tiles.start(view_of_camera(uniforms.clip_of_eye, options.width, options.height));
   using Group = Pieces::Group;
   for (const auto& [group, program] :
        {std::pair(Group::kMatte, programs.matte), std::pair(Group::kPainted, programs.painted),
         std::pair(Group::kBlocks, programs.blocks), std::pair(Group::kShiny, programs.shiny)}) {
     if (!pieces.has(group)) continue;
-    begin(light, program);
-    pieces.draw(group, covered);
+    begin_pass(light, program);
+    pieces.draw(group, depth_tiles);
   }
   gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   chips.draw();
@@ -253,9 +253,9 @@ void Renderer::Impl::draw_pieces() {
 void Renderer::Impl::draw_ground_and_sky() {
   gl.Disable(GL_CULL_FACE);
   gl.BindVertexArray(empty_vertex_array);
-  begin(light, programs.ground);
+  begin_pass(light, programs.ground);
   gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  begin(light, programs.sky);
+  begin_pass(light, programs.sky);
   gl.DepthFunc(GL_LEQUAL);
   gl.DepthMask(GL_FALSE);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -266,15 +266,15 @@ void Renderer::Impl::draw_ground_and_sky() {
 void Renderer::Impl::draw_occlusion() {
   gl.Disable(GL_DEPTH_TEST);
   gl.BindVertexArray(empty_vertex_array);
-  begin(open, programs.occlusion);
+  begin_pass(open, programs.occlusion);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  begin(blurred, programs.blur);
+  begin_pass(blurred, programs.blur);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   gl.Enable(GL_DEPTH_TEST);
 }
 
 void Renderer::Impl::draw_glass() {
-  begin(light, programs.glass);
+  begin_pass(light, programs.glass);
   gl.Enable(GL_CULL_FACE);
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ZERO, GL_SRC1_ALPHA);
@@ -288,7 +288,7 @@ void Renderer::Impl::draw_glass() {
 void Renderer::Impl::draw_dust() {
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
-  begin(dust, 0);
+  begin_pass(dust, 0);
   gl.ClearColor(0, 0, 0, 0);
   gl.Clear(GL_COLOR_BUFFER_BIT);
   gl.Enable(GL_BLEND);
@@ -298,7 +298,7 @@ void Renderer::Impl::draw_dust() {
 }
 
 void Renderer::Impl::draw_marks() {
-  begin(light, 0);
+  begin_pass(light, 0);
   marks->draw();
 }
 
@@ -306,16 +306,16 @@ void Renderer::Impl::composite() {
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
   gl.BindVertexArray(empty_vertex_array);
-  begin(picture, puffs.any() ? programs.dusty : programs.composite);
+  begin_pass(picture, puffs.any() ? programs.dusty : programs.composite);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// Adds the sample that was drawn to the others.
+/// Adds the sample drawn to the sum.
 void Renderer::Impl::gather(bool first) {
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
   gl.BindVertexArray(empty_vertex_array);
-  begin(sum, puffs.any() ? programs.dusty_gather : programs.gather);
+  begin_pass(sum, puffs.any() ? programs.dusty_gather : programs.gather);
   gl.ClearColor(0, 0, 0, 0);
   if (first) gl.Clear(GL_COLOR_BUFFER_BIT);
   gl.Enable(GL_BLEND);
@@ -325,33 +325,33 @@ void Renderer::Impl::gather(bool first) {
 }
 
 void Renderer::Impl::develop() {
-  begin(picture, programs.develop);
+  begin_pass(picture, programs.develop);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 Image Renderer::Impl::read_back() {
   gl.ReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-  done("read");
+  end_pass("read");
   Image image = gathers() ? unpacked(pixels, options.width, options.height, options.transparent)
-                          : antialiased(pixels, options.width, options.height);
-  done("antialias");
+                          : apply_fxaa(pixels, options.width, options.height);
+  end_pass("antialias");
   return image;
 }
 
 void Renderer::Impl::draw_light(const Frame& frame, const Sample& sample) {
   upload(view_mode.shown(frame), sample);
-  done("upload");
+  end_pass("upload");
   draw_shadows();
   draw_pieces();
-  done("pieces");
+  end_pass("pieces");
   if (!options.transparent) draw_ground_and_sky();
-  done("ground and sky");
+  end_pass("ground and sky");
   draw_occlusion();
-  done("occlusion");
+  end_pass("occlusion");
   if (pieces.has(Pieces::Group::kGlass)) draw_glass();
-  done("glass");
+  end_pass("glass");
   if (puffs.any()) draw_dust();
-  done("dust");
+  end_pass("dust");
   if (marks && marks->any()) draw_marks();
 }
 
@@ -370,19 +370,19 @@ Image Renderer::draw(const Frame& frame, const Frame* before) {
   } else {
     const double weight = 1.0 / r.options.samples;
     const bool blurs = frame.view.shutter > 0;
-    const Interval way = blurs ? up_to(frame, before) : Interval{};
+    const FrameInterval interval = blurs ? up_to(frame, before) : FrameInterval{};
     for (int s = 0; s < r.options.samples; ++s) {
       const double part = 1 - frame.view.shutter * (1 - (s + 0.5) * weight);
-      r.draw_light(blurs ? *between(way, part) : frame, {place_in_pixel(s), weight});
+      r.draw_light(blurs ? *between(interval, part) : frame, {jitter_of(s), weight});
       r.gather(s == 0);
     }
     r.develop();
   }
-  r.done("composite");
+  r.end_pass("composite");
   Image image = r.read_back();
   if (r.layers) {
     const Frame& shown = r.view_mode.shown(frame);
-    if (r.options.samples > 1) r.upload(shown, {});  // as it is, and not as the last sample was
+    if (r.options.samples > 1) r.upload(shown, {});  // the frame itself, not the last sample
     r.drawn_layers = r.layers->draw(shown, r.pieces, r.chips);
   }
   if (r.options.hud) draw_text(image, hud_text(frame));

@@ -1,4 +1,4 @@
-// A frame becomes an image, off-screen.
+// Off-screen rendering of a frame to an image.
 #pragma once
 
 #include <memory>
@@ -11,31 +11,32 @@
 
 namespace sunder::render {
 
-/// What one pass of the last draw took.
+/// Time of one pass of the last draw().
 struct PassTime {
   const char* name;
   double ms;
-  double cpu_ms;  ///< Processor time of all threads, the software driver's included.
+  double cpu_ms;  ///< CPU time of all threads, including those of a software driver.
 };
 
-/// Owns a GL context; used from the thread that made it. The same frame gives the same bytes.
+/// Draws frames with OpenGL, on the thread that made it. Equal frames give equal bytes.
 class Renderer {
  public:
-  /// Throws InputError if the context asked for cannot be had, saying what was tried.
+  /// Makes a GL context. Throws InputError for invalid options or if no kind of context is
+  /// available.
   explicit Renderer(const RenderOptions& options);
   ~Renderer();
 
-  /// `before`, if there is one: the frame that what moves has come from, while the shutter of the
-  /// view was open; else it is taken to have moved evenly.
+  /// Draws a frame. For motion blur `before` is the previous frame; if null, bodies are assumed to
+  /// have moved with their current velocities.
   Image draw(const Frame& frame, const Frame* before = nullptr);
-  /// Those of the options, of the picture drawn last.
+  /// Returns the layers of the image drawn last, as named in the options.
   const std::vector<Layer>& layers() const;
   const RenderOptions& options() const;
-  /// Context, driver and version, for logs.
+  /// Returns the context, driver and version, for logs.
   std::string description() const;
   int width() const;
   int height() const;
-  /// In order; empty unless asked for in the options.
+  /// Returns the times of the passes in order; empty unless options.time_passes is set.
   const std::vector<PassTime>& pass_times() const;
 
  private:

@@ -16,13 +16,13 @@ namespace sunder::render {
 namespace {
 
 constexpr int kGap = 4;  // pixels
-constexpr std::uint8_t kPaper = 24;
-constexpr int kLargestSide = 32768;
+constexpr std::uint8_t kBackgroundLevel = 24;
+constexpr int kMaxSheetSide = 32768;
 
 int columns_of(int count) { return static_cast<int>(std::ceil(std::sqrt(count))); }
 int side_of(int cells, int pixels) { return cells * (pixels + kGap) - kGap; }
 
-/// The picture of a number, counted from 0.
+/// Returns the index of the frame that picture number `picture` shows, counted from 0.
 std::uint64_t frame_of(const SheetFrames& frames, std::uint64_t picture) {
   const auto gaps = static_cast<std::uint64_t>(std::max(1, frames.count - 1));
   return frames.first + (picture * (frames.last - frames.first) + gaps / 2) / gaps;
@@ -57,7 +57,7 @@ class SheetSink final : public FrameSink {
     all.width = side_of(columns, renderer_.width());
     all.height = side_of(rows, renderer_.height());
     const auto row_bytes = 3 * static_cast<std::size_t>(all.width);
-    all.rgb.assign(row_bytes * static_cast<std::size_t>(all.height), kPaper);
+    all.rgb.assign(row_bytes * static_cast<std::size_t>(all.height), kBackgroundLevel);
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
       const Image& picture = pictures_[i];
       const auto wide = static_cast<std::size_t>(picture.width);
@@ -87,19 +87,19 @@ std::unique_ptr<FrameSink> make_sheet_sink(const std::filesystem::path& path, Re
   if (path.extension() != ".png") {
     throw InputError(asked + path.string() + " is no picture; a sheet is written to X.png");
   }
-  const std::uint64_t there = frames.last - frames.first + 1;
-  if (static_cast<std::uint64_t>(frames.count) > there) {
-    throw InputError(asked + "there are " + std::to_string(there) +
+  const std::uint64_t available = frames.last - frames.first + 1;
+  if (static_cast<std::uint64_t>(frames.count) > available) {
+    throw InputError(asked + "there are " + std::to_string(available) +
                      " frames to draw; ask for no more, or draw more by --frames or --fps");
   }
   const int columns = columns_of(frames.count);
   const int rows = (frames.count + columns - 1) / columns;
   const int wide = side_of(columns, renderer.width()), tall = side_of(rows, renderer.height());
-  if (wide > kLargestSide || tall > kLargestSide) {
+  if (wide > kMaxSheetSide || tall > kMaxSheetSide) {
     throw InputError(asked + "it would have " + std::to_string(wide) + "x" + std::to_string(tall) +
                      " pixels, and at most 32768 a side can be; lessen --size, that of a picture");
   }
-  check_place(path);
+  check_output_path(path);
   return std::make_unique<SheetSink>(path, renderer, frames, captions);
 }
 

@@ -1,4 +1,4 @@
-// A contact sheet: a run at a glance.
+// A contact sheet: images of several frames in one.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace sunder::render {
 
-/// Which frames a sheet shows: `count` of them, the first and the last included, evenly between.
+/// The frames of a sheet: `count` evenly spaced ones from `first` to `last`, both included.
 struct SheetFrames {
   std::uint64_t first = 0, last = 0;
   int count = 1;
 };
 
-/// Draws those frames side by side into one PNG, row by row, each with its time unless the renderer
-/// writes that (`captions`). A run that ends sooner has what it came to. Throws InputError for what
-/// is no .png, more pictures than frames, or a sheet too large; FileError if it cannot be written.
+/// Makes a sink that draws these frames into one PNG, row by row, with their times if `captions`. A
+/// run that ends early gives a smaller sheet. Throws InputError if `path` is no .png, there are too
+/// few frames or the sheet is too large; FileError if `path` cannot be written.
 std::unique_ptr<FrameSink> make_sheet_sink(const std::filesystem::path& path, Renderer& renderer,
                                            const SheetFrames& frames, bool captions = true);
 

@@ -1,4 +1,4 @@
-// The three kinds of picture sink: a video, the last frame, a folder of frames.
+// The three kinds of picture sinks: a video, an image of the last frame, a folder of images.
 #include "render/sinks.h"
 
 #include <unistd.h>
@@ -14,7 +14,7 @@
 namespace sunder::render {
 namespace {
 
-/// Makes `folder`, if it is not there yet; throws FileError.
+/// Makes `folder` if it does not exist. Throws FileError if that fails or it cannot be written.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
@@ -24,15 +24,15 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-/// Draws frames as they come, each with the one before it.
-class Film {
+/// Draws frames in order, each with the previous one for motion blur.
+class FrameDrawer {
  public:
-  explicit Film(Renderer& renderer) : renderer_(renderer) {}
+  explicit FrameDrawer(Renderer& renderer) : renderer_(renderer) {}
   void take(const FramePtr& frame) { before_ = std::exchange(frame_, frame); }
-  /// None was taken yet.
+  /// Returns true if no frame was taken yet.
   bool empty() const { return !frame_; }
   Image picture() { return renderer_.draw(*frame_, before_.get()); }
-  /// The picture, and its layers beside it: first these, so that it is there when all is.
+  /// Writes the layers, then the image, so that the image exists only when all files do.
   void write(const std::filesystem::path& path) {
     const Image image = picture();
     for (const Layer& layer : renderer_.layers()) {
@@ -55,36 +55,36 @@ class Film {
 class VideoSink final : public FrameSink {
  public:
   VideoSink(const std::filesystem::path& path, Renderer& renderer, int frames_per_s)
-      : film_(renderer), encoder_(path, renderer.width(), renderer.height(), frames_per_s) {}
+      : drawer_(renderer), encoder_(path, renderer.width(), renderer.height(), frames_per_s) {}
   void take(const FramePtr& frame) override {
-    film_.take(frame);
-    encoder_.add(film_.picture());
+    drawer_.take(frame);
+    encoder_.add(drawer_.picture());
   }
   void finish() override { encoder_.finish(); }
 
  private:
-  Film film_;
+  FrameDrawer drawer_;
   Encoder encoder_;
 };
 
 class LastImageSink final : public FrameSink {
  public:
   LastImageSink(std::filesystem::path path, Renderer& renderer)
-      : path_(std::move(path)), film_(renderer) {}
-  void take(const FramePtr& frame) override { film_.take(frame); }
+      : path_(std::move(path)), drawer_(renderer) {}
+  void take(const FramePtr& frame) override { drawer_.take(frame); }
   void finish() override {
-    if (!film_.empty()) film_.write(path_);
+    if (!drawer_.empty()) drawer_.write(path_);
   }
 
  private:
   std::filesystem::path path_;
-  Film film_;
+  FrameDrawer drawer_;
 };
 
 class ImagesSink final : public FrameSink {
  public:
   ImagesSink(std::filesystem::path folder, Renderer& renderer, bool resume)
-      : folder_(std::move(folder)), film_(renderer), resume_(resume) {
+      : folder_(std::move(folder)), drawer_(renderer), resume_(resume) {
     make_folder(folder_);
   }
 
@@ -93,21 +93,21 @@ class ImagesSink final : public FrameSink {
     std::snprintf(name, sizeof name, "frame_%05llu.png",
                   static_cast<unsigned long long>(frame->index));
     const std::filesystem::path picture = folder_ / name;
-    film_.take(frame);
-    if (!resume_ || !std::filesystem::exists(picture)) film_.write(picture);
+    drawer_.take(frame);
+    if (!resume_ || !std::filesystem::exists(picture)) drawer_.write(picture);
   }
   void finish() override {}
 
  private:
   std::filesystem::path folder_;
-  Film film_;
+  FrameDrawer drawer_;
   bool resume_;
 };
 
-/// A sink with a renderer of its own.
-class OwnRenderer final : public FrameSink {
+/// A sink that owns its renderer.
+class RenderingSink final : public FrameSink {
  public:
-  OwnRenderer(const std::filesystem::path& path, const RenderOptions& options)
+  RenderingSink(const std::filesystem::path& path, const RenderOptions& options)
       : renderer_(options),
         sink_(make_picture_sink(path, renderer_, false, options.frames_per_s)) {}
   void take(const FramePtr& frame) override { sink_->take(frame); }
@@ -120,7 +120,7 @@ class OwnRenderer final : public FrameSink {
 
 }  // namespace
 
-void check_place(const std::filesystem::path& path) {
+void check_output_path(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
     throw InputError(path.string() + ": is a folder; name a file");
   }
@@ -129,7 +129,7 @@ void check_place(const std::filesystem::path& path) {
 
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
                                              const RenderOptions& options) {
-  return std::make_unique<OwnRenderer>(path, options);
+  return std::make_unique<RenderingSink>(path, options);
 }
 
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
@@ -144,7 +144,7 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, 
       throw InputError(path.string() +
                        ": a video has neither transparency nor layers; make it images, in DIR/");
     }
-    check_place(path);
+    check_output_path(path);
     if (is_video) return std::make_unique<VideoSink>(path, renderer, frames_per_s);
     return std::make_unique<LastImageSink>(path, renderer);
   }

@@ -1,4 +1,4 @@
-// Frames to files: video through the ffmpeg program, or PNG images.
+// Sinks that render frames to files: video by the ffmpeg program, or PNG images.
 #pragma once
 
 #include <filesystem>
@@ -14,34 +14,35 @@ struct RenderOptions {
   int width = 1280;
   int height = 720;
   std::string gl = "auto";  ///< auto | egl-device:N | egl-surfaceless | osmesa
-  /// materials | convexes | compounds | asleep | wireframe | exploded
+  /// materials | convexes | compounds | asleep | wireframe | exploded | contacts | stress | islands
+  /// | broadphase; the last four need Frame::inspection.
   std::string view_mode = "materials";
-  /// Pictures that each is the mean of, in linear light: each a little aside, by less than a pixel,
-  /// and, while the view's shutter is open, a little later.
+  /// Number of samples per image, averaged in linear light: each is offset by less than a pixel
+  /// and, within the time the view's shutter is open, in time.
   int samples = 1;
-  /// Neither ground nor sky: what is not covered is transparent. Images only.
+  /// Leaves out ground and sky and makes uncovered pixels transparent. Images only.
   bool transparent = false;
-  std::vector<std::string> layers = {};  ///< Images beside each: layers.h.
-  bool hud = false;                      ///< Frame number, time and counts in the corner.
-  bool time_passes = false;  ///< Waits for the GPU after each pass, to fill pass_times().
-  int frames_per_s = 60;     ///< Of a video.
+  std::vector<std::string> layers = {};  ///< Names of data layers to write, see layers.h.
+  bool hud = false;                      ///< Draws frame number, time and counts into the corner.
+  bool time_passes = false;  ///< Waits for the GPU after each pass to fill pass_times().
+  int frames_per_s = 60;     ///< Frame rate of a video.
 };
 
-/// Draws with OpenGL, off-screen, on the thread that makes it; renderer.h.
-class Renderer;
+class Renderer;  // renderer.h
 
-/// `path` ending in .mp4 or .webm: a video; .png: the last frame taken; otherwise a directory of
-/// frame_00000.png and so on; layers are X_depth.png, X_depth_m.exr and so on beside each. No file
-/// stands there until it is complete. Throws InputError if ffmpeg is missing (naming the package)
-/// or the options cannot be met, FileError if the place cannot be written.
+/// Makes a sink that renders frames to `path`. Ending in .mp4 or .webm: a video; in .png: an image
+/// of the last frame; otherwise: a folder of frame_00000.png and so on. Layers are written beside
+/// each image as X_depth.png, X_depth_m.exr and so on. A file exists only when it is complete.
+/// Throws InputError if ffmpeg is missing (naming the package) or the options cannot be met,
+/// FileError if the path cannot be written. The sink draws on the thread that makes it.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
                                              const RenderOptions& options);
-/// The same with a renderer that is there already, and must outlive the sink; `resume`: pictures
-/// that are in the directory stay as they are, and are not drawn.
+/// Makes a sink that uses `renderer`, which must outlive it. With `resume`, images that exist in
+/// the folder are kept and not drawn again.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
                                              bool resume = false, int frames_per_s = 60);
-/// Makes the folder of a file that is to be written. Throws InputError if `path` is a folder
-/// itself, FileError if that cannot be written to.
-void check_place(const std::filesystem::path& path);
+/// Makes the folder of a file to be written. Throws InputError if `path` is a folder itself,
+/// FileError if the folder cannot be made or written.
+void check_output_path(const std::filesystem::path& path);
 
 }  // namespace sunder::render

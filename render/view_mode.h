@@ -1,5 +1,5 @@
-// Other ways to look at a frame: coloured by what its parts are or go through, or moved apart. A
-// frame comes in, a frame and some marks go out, so passes know nothing of it.
+// View modes: a frame is recoloured by properties of its parts, or exploded. The result is a frame
+// and marks, so the passes do not depend on the mode.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@ inline constexpr const char* kViewModes =
 
 class ViewMode {
  public:
-  /// Throws InputError for what is not in kViewModes.
+  /// Makes a view mode by name. Throws InputError if the name is not in kViewModes.
   explicit ViewMode(const std::string& name);
-  /// What is to be drawn of the frame; valid until the next. Colours stay from frame to frame.
-  /// Throws InputError if it looks inside, and the frame does not say what happens there.
+  /// Returns the frame to draw, valid until the next call. Colours of bodies are constant from
+  /// frame to frame. Throws InputError if the mode needs Frame::inspection and the frame has none.
   const Frame& shown(const Frame& frame);
-  /// What is pointed out in the frame that was shown last.
+  /// Returns the marks of the last frame.
   const MarkList& marks() const { return marks_; }
-  /// Whether the edges of triangles are drawn in place of faces.
+  /// Returns true if the edges of triangles are drawn in place of faces.
   bool edges() const { return kind_ == Kind::kWireframe; }
-  /// Whether it needs Frame::inspection.
-  bool looks_inside() const { return kind_ >= Kind::kContacts; }
+  /// Returns true if the mode needs Frame::inspection.
+  bool needs_inspection() const { return kind_ >= Kind::kContacts; }
 
  private:
   enum class Kind {
@@ -45,16 +45,16 @@ class ViewMode {
   };
 
   std::uint32_t color_of(const Frame& frame, std::size_t instance) const;
-  void color(const Frame& frame);
-  void move_apart();
-  void mark(const Frame& frame);
+  void assign_colors(const Frame& frame);
+  void explode();
+  void add_marks(const Frame& frame);
 
   std::string name_;
   Kind kind_;
   Frame shown_;
   MarkList marks_;
   std::shared_ptr<const std::vector<Material>> given_materials_;
-  std::shared_ptr<const std::vector<Material>> materials_;  ///< Those, and the colours.
+  std::shared_ptr<const std::vector<Material>> materials_;  ///< Given materials, then the palette.
 };
 
 }  // namespace sunder::render

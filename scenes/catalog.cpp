@@ -1,4 +1,4 @@
-// Where scenes are found.
+// Finds scene files by name, and lists the catalogue.
 #include <algorithm>
 
 #include "engine/base/check.h"
@@ -11,7 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of the catalogue lie one folder down; the library of materials lies beside the folders.
+/// Returns the scene files of the catalogue, sorted by stem. They lie in folders within `folder`;
+/// files beside these folders, such as materials.toml, are no scenes.
 std::vector<fs::path> catalog_files(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& group : fs::directory_iterator(scenes_folder(folder))) {
@@ -25,7 +26,7 @@ std::vector<fs::path> catalog_files(const fs::path& folder) {
   return files;
 }
 
-/// Without building the scene.
+/// Returns the description in a scene file, without building the scene.
 std::string description(const fs::path& file) {
   const Value document = parse_toml(read_text(file), file.string());
   const Value* scene = find(document, "scene");

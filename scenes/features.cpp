@@ -12,7 +12,7 @@ constexpr const char* kOn = "on";
 
 std::string on_or(bool on, const char* why) { return on ? kOn : std::string("off: ") + why; }
 
-/// Solids, and what hangs balls.
+/// Returns the solids of a scene, and the chain links of its wrecking balls.
 std::vector<const Solid*> solids_of(const Scene& scene) {
   std::vector<const Solid*> all;
   for (const Solid& solid : scene.solids) all.push_back(&solid);
@@ -32,14 +32,14 @@ bool any_convex(const Solid& solid, const Predicate& is) {
                              [&](const ConvexPtr& convex) { return is(*convex); });
 }
 
-/// Whether a convex of the solid is of such a material.
+/// Returns true if the predicate holds for the material of a convex of the solid.
 template <class Predicate>
 bool is_made_of(const Scene& scene, const Solid& solid, const Predicate& is) {
   return any_convex(
       solid, [&](const Convex& convex) { return is(scene.materials[convex.material.value]); });
 }
 
-/// Whether anything that collides is of such a material.
+/// Returns true if the predicate holds for the material of a solid, a ball or a ground mesh.
 template <class Predicate>
 bool any_material(const Scene& scene, const Predicate& is) {
   const auto of_ball = [&](const Ball& ball) { return is(scene.materials[ball.material.value]); };
@@ -54,8 +54,8 @@ bool any_material(const Scene& scene, const Predicate& is) {
 
 bool has_pattern(const Material& material) { return material.breakable(); }
 
-/// Whether stress may break it, as it is or in pieces of several convexes.
-bool bears(const Scene& scene, const Solid& solid) {
+/// Returns true if stress may break the solid, or pieces of it that have several convexes.
+bool may_break_by_stress(const Scene& scene, const Solid& solid) {
   return (solid.compound.convexes.size() > 1 || is_made_of(scene, solid, has_pattern)) &&
          is_made_of(scene, solid, [](const Material& m) { return m.breaks_by_load(); });
 }
@@ -64,10 +64,10 @@ bool breaks_by_pattern(const Scene& scene) {
   return any_solid(scene, [&](const Solid& s) { return is_made_of(scene, s, has_pattern); });
 }
 bool breaks_by_load(const Scene& scene) {
-  return any_solid(scene, [&](const Solid& solid) { return bears(scene, solid); });
+  return any_solid(scene, [&](const Solid& solid) { return may_break_by_stress(scene, solid); });
 }
 bool may_break(const Scene& scene, const Solid& solid) {
-  return is_made_of(scene, solid, has_pattern) || bears(scene, solid);
+  return is_made_of(scene, solid, has_pattern) || may_break_by_stress(scene, solid);
 }
 bool may_break(const Scene& scene) {
   return any_solid(scene, [&](const Solid& solid) { return may_break(scene, solid); });
@@ -87,11 +87,11 @@ std::string impact_probe_state(const Scene& scene) {
   return on_or(may_break(scene), "nothing here is breakable");
 }
 
-std::string own_weight_state(const Scene& scene) {
+std::string self_weight_state(const Scene& scene) {
   if (!breaks_by_load(scene)) return "off: nothing here has a stress that breaks its bonds";
   return on_or(!scene.gravity_W.isZero(), "gravity = [0, 0, 0]; what presses and spin still break");
 }
-void without_own_weight(Scene& scene) {
+void without_self_weight(Scene& scene) {
   for (Material& material : scene.materials) {
     material.tensile_Pa = material.shear_Pa = material.compressive_Pa = material.yield_Pa = 0;
   }
@@ -99,7 +99,7 @@ void without_own_weight(Scene& scene) {
 
 std::string yielding_state(const Scene& scene) {
   const bool any = any_solid(scene, [&](const Solid& solid) {
-    return bears(scene, solid) &&
+    return may_break_by_stress(scene, solid) &&
            is_made_of(scene, solid, [](const Material& m) { return m.yields(); });
   });
   return on_or(any, "nothing here has a yield_Pa");
@@ -108,25 +108,27 @@ void without_yielding(Scene& scene) {
   for (Material& material : scene.materials) material.yield_Pa = 0;
 }
 
-/// Of chips or puffs: how many may be alive, and which part of what comes off they are.
-std::string crumbs_state(const Scene& scene, std::uint32_t limit, const char* none,
-                         bool (*comes_off)(const Crumbling&)) {
-  if (limit == 0) return std::string("off: ") + none;
+/// Returns the state of debris or dust. `limit` is the most particles alive at once,
+/// `reason_for_none` the reason if that is 0, and `makes_particles` is true for a material whose
+/// crack faces release this kind of particle.
+std::string particles_state(const Scene& scene, std::uint32_t limit, const char* reason_for_none,
+                            bool (*makes_particles)(const DebrisEmission&)) {
+  if (limit == 0) return std::string("off: ") + reason_for_none;
   if (!may_break(scene)) return "off: nothing here is breakable";
   const bool any = any_solid(scene, [&](const Solid& solid) {
     return may_break(scene, solid) && is_made_of(scene, solid, [&](const Material& material) {
-             return material.crumbling.particles_per_m2 > 0 && comes_off(material.crumbling);
+             return material.crumbling.particles_per_m2 > 0 && makes_particles(material.crumbling);
            });
   });
   return on_or(any, "nothing here crumbles into it");
 }
 std::string debris_state(const Scene& scene) {
-  return crumbs_state(scene, scene.limits.debris, "debris = 0 in [limits]",
-                      [](const Crumbling& c) { return c.debris_ratio > 0; });
+  return particles_state(scene, scene.limits.debris, "debris = 0 in [limits]",
+                         [](const DebrisEmission& c) { return c.debris_ratio > 0; });
 }
 std::string dust_state(const Scene& scene) {
-  return crumbs_state(scene, scene.limits.dust, "dust = 0 in [limits]",
-                      [](const Crumbling& c) { return c.debris_ratio < 1; });
+  return particles_state(scene, scene.limits.dust, "dust = 0 in [limits]",
+                         [](const DebrisEmission& c) { return c.debris_ratio < 1; });
 }
 void without_debris(Scene& scene) { scene.limits.debris = 0; }
 void without_dust(Scene& scene) { scene.limits.dust = 0; }
@@ -213,7 +215,7 @@ std::string third_dimension_state(const Scene& scene) {
 constexpr Feature kFeatures[] = {
     {"fracture", fracture_state, without_fracture},
     {"impact_probe", impact_probe_state, nullptr},
-    {"own_weight", own_weight_state, without_own_weight},
+    {"own_weight", self_weight_state, without_self_weight},
     {"yielding", yielding_state, without_yielding},
     {"debris", debris_state, without_debris},
     {"dust", dust_state, without_dust},

@@ -1,4 +1,4 @@
-// What a run models, feature by feature, as far as the scene says.
+// The features that a run models, such as fracture, dust and sleeping, and their state in a scene.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@ namespace sunder::scenes {
 
 struct Feature {
   const char* name;
-  /// "on", "off", or "off: why", the reason being in the scene.
+  /// Returns "on", "off", or "off: REASON", where the reason is found in the scene.
   std::string (*state)(const Scene& scene);
-  /// Changes a scene in which it is on so that it is off; null: no scene goes without it.
+  /// Turns the feature off in a scene in which it is on; null if that is not possible.
   void (*turn_off)(Scene& scene);
 };
 
-/// All of them, in the order in which they are shown.
+/// Returns all features, in the order in which they are shown.
 std::span<const Feature> features();
-/// The one of this name; null if there is none.
+/// Returns the feature of this name; null if there is none.
 const Feature* find_feature(const std::string& name);
 
 }  // namespace sunder::scenes

@@ -1,4 +1,4 @@
-// From a document to a scene. Read first: parse_scene().
+// Builds a scene from a TOML document. Read first: parse_scene().
 #include "scenes/load.h"
 
 #include <algorithm>
@@ -27,9 +27,9 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
+constexpr double kFrame_s = 1.0 / 60;
 
-/// The loader's state: the document and the scene it is becoming.
+/// Builds a scene from a document.
 class Loader {
  public:
   Loader(const Value& document, std::filesystem::path folder)
@@ -40,10 +40,10 @@ class Loader {
   std::vector<Material> take_materials() { return std::move(scene_.materials); }
 
  private:
-  /// The solids that a table became, from `first` on.
-  struct Made {
-    std::string name;   ///< Empty: none was given.
-    std::string usual;  ///< In place of it.
+  /// The solids made from one table: `count` solids of the scene, from index `first` on.
+  struct SolidGroup {
+    std::string name;          ///< The name given; empty if there is none.
+    std::string default_name;  ///< Base of the name where none is given.
     std::string where;
     std::size_t first = 0, count = 0;
   };
@@ -55,20 +55,20 @@ class Loader {
     }
   }
   void read_accuracy();
-  void aim();
+  void find_substeps();
   void add_solid(const Value& table);
   void add_body(const Value& table);
   void add_ball(const Value& table);
-  void add_solids(Made made, std::vector<Solid> solids);
-  void give_names(const Value& parent, std::initializer_list<std::string_view> keys);
+  void add_solids(SolidGroup group, std::vector<Solid> solids);
+  void reserve_names(const Value& parent, std::initializer_list<std::string_view> keys);
   void name_solids();
   void check_bodies(std::size_t bodies) const;
   void check_references() const;
 
   const Value& document_;
-  std::filesystem::path folder_;  ///< Where the files it names are sought.
+  std::filesystem::path folder_;  ///< Folder in which files that the document names are sought.
   Scene scene_;
-  std::vector<Made> made_;
+  std::vector<SolidGroup> groups_;
   Names names_;
 };
 
@@ -98,7 +98,7 @@ Scene Loader::load(const LoadOptions& options) {
   for (const Value* table : tables(document_, "joint"))
     scene_.joints.push_back(read_joint(*table, scene_));
   if (const Value* table = find(document_, "script")) read_script(*table, scene_);
-  aim();
+  find_substeps();
   if (scene_.planar) check_planar(scene_, find(*scene, "planar")->where);
   std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
   for (const Shot& shot : scene_.shots) bodies += shot.links.size();
@@ -116,14 +116,14 @@ void Loader::read_accuracy() {
   read_table(schema().accuracy, "accuracy", scene_.accuracy);
   const Value* table = find(document_, "accuracy");
   double& dt = scene_.accuracy.dt_s;
-  const double steps = std::round(kFrame / dt);
-  if (std::abs(steps * dt - kFrame) > 1e-6 * kFrame) {
+  const double steps = std::round(kFrame_s / dt);
+  if (std::abs(steps * dt - kFrame_s) > 1e-6 * kFrame_s) {
     throw InputError(
         find(*table, "dt_s")->where +
         ": dt_s in [accuracy] does not divide a frame of 1/60 s; allowed: 1/60, 1/120, "
         "1/180 and so on");
   }
-  dt = kFrame / steps;
+  dt = kFrame_s / steps;
   if (scene_.accuracy.error_target_m <= 0) return;
   if (const Value* substeps = find(*table, "substeps")) {
     throw InputError(substeps->where +
@@ -131,16 +131,16 @@ void Loader::read_accuracy() {
   }
 }
 
-/// Substeps from what is to stand, once it is known.
-void Loader::aim() {
+/// Sets the number of substeps from error_target_m, if given, and from the scene's solids.
+void Loader::find_substeps() {
   Accuracy& accuracy = scene_.accuracy;
   if (accuracy.error_target_m <= 0) return;
-  const int wanted = substeps_for_sink(stacks_in(scene_).deepest, scene_.gravity_W.norm(),
-                                       accuracy.dt_s, accuracy.error_target_m);
-  accuracy.substeps = std::min(wanted, kMostSubsteps);
+  const int wanted = substeps_for_penetration(find_stacks(scene_).deepest, scene_.gravity_W.norm(),
+                                              accuracy.dt_s, accuracy.error_target_m);
+  accuracy.substeps = std::min(wanted, kMaxSubsteps);
 }
 
-void read_crumbling(const Value& table, Crumbling& crumbling) {
+void read_crumbling(const Value& table, DebrisEmission& crumbling) {
   read(schema().crumbling, table, {}, crumbling);
   if (crumbling.debris_smallest_m > crumbling.debris_largest_m) {
     throw InputError(table.where + ": debris_smallest_m = " + format(crumbling.debris_smallest_m) +
@@ -149,7 +149,7 @@ void read_crumbling(const Value& table, Crumbling& crumbling) {
   }
 }
 
-/// A material of the same name is replaced: a scene may change what the library says.
+/// Adds the materials of a document to the scene; each replaces an earlier one of its name.
 void Loader::add_materials(const Value& document, const std::filesystem::path& folder) {
   const Schema& s = schema();
   std::set<std::string> seen;
@@ -185,7 +185,7 @@ void Loader::add_materials(const Value& document, const std::filesystem::path& f
   }
 }
 
-/// The solids that pieces are, in the frame of the structure.
+/// Returns the solids of pieces, one for each island and copy, in the frame S of the structure.
 std::vector<Solid> solids_of(std::vector<Piece> pieces) {
   std::vector<Solid> solids;
   for (Piece& piece : pieces) {
@@ -211,7 +211,7 @@ std::vector<Piece> mirrored_pieces(std::vector<Piece> pieces) {
   return pieces;
 }
 
-/// The world holds pieces as asked for.
+/// Anchors pieces to the world as the key `anchored` says.
 void anchor(std::vector<Piece>& pieces, Anchored how, const Value& table,
             std::span<const Material> materials) {
   if (how == Anchored::kBottom) {
@@ -219,7 +219,7 @@ void anchor(std::vector<Piece>& pieces, Anchored how, const Value& table,
   }
   for (Piece& piece : pieces) {
     for (Part& part : piece.parts) {
-      if (how == Anchored::kAll) part.anchored = kAnchoredAllRound;
+      if (how == Anchored::kAll) part.anchored = kAnchoredAllSides;
     }
   }
 }
@@ -237,17 +237,17 @@ void Loader::add_solid(const Value& table) {
     made += piece.copies.size();
     parts += piece.parts.size() * piece.copies.size();
   }
-  check_bodies(scene_.solids.size() + made * copies.size());  // before long work
+  check_bodies(scene_.solids.size() + made * copies.size());  // before the expensive work
   check_parts(static_cast<double>(parts * copies.size()), table);
   anchor(pieces, head.anchored, table, scene_.materials);
   const bool any_mirrored =
       std::any_of(copies.begin(), copies.end(), [](const Copy& copy) { return copy.mirrored; });
-  const std::vector<Solid> twins =
+  const std::vector<Solid> mirrored_solids =
       any_mirrored ? solids_of(mirrored_pieces(pieces)) : std::vector<Solid>();
-  const std::vector<Solid> whole = solids_of(std::move(pieces));
+  const std::vector<Solid> upright_solids = solids_of(std::move(pieces));
   std::vector<Solid> solids;
   for (const Copy& copy : copies) {
-    for (Solid solid : copy.mirrored ? twins : whole) {
+    for (Solid solid : copy.mirrored ? mirrored_solids : upright_solids) {
       solid.X_WR = copy.X_FM * solid.X_WR;
       solid.velocity_W = copy.velocity(head.velocity);
       solid.angular_velocity_W = copy.angular_velocity(head.angular_velocity);
@@ -259,14 +259,14 @@ void Loader::add_solid(const Value& table) {
 
 void Loader::add_body(const Value& table) {
   Body body = read_body(table, scene_.materials, folder_, scene_.paints, scene_.warnings);
-  add_solids({body.name, body.usual, table.where}, std::move(body.solids));
+  add_solids({body.name, body.default_name, table.where}, std::move(body.solids));
 }
 
-void Loader::add_solids(Made made, std::vector<Solid> solids) {
-  made.first = scene_.solids.size();
-  made.count = solids.size();
+void Loader::add_solids(SolidGroup group, std::vector<Solid> solids) {
+  group.first = scene_.solids.size();
+  group.count = solids.size();
   for (Solid& solid : solids) scene_.solids.push_back(std::move(solid));
-  made_.push_back(std::move(made));
+  groups_.push_back(std::move(group));
 }
 
 void Loader::add_ball(const Value& table) {
@@ -276,30 +276,31 @@ void Loader::add_ball(const Value& table) {
       {ball.name, ball.radius_m, ball.material.index, ball.position, ball.velocity});
 }
 
-/// The names that the tables of an array give, by the keys of those arrays.
-void Loader::give_names(const Value& parent, std::initializer_list<std::string_view> keys) {
+/// Reserves the names that are given in the arrays of tables under `keys` of `parent`.
+void Loader::reserve_names(const Value& parent, std::initializer_list<std::string_view> keys) {
   for (const std::string_view key : keys) {
     for (const Value* table : tables(parent, key)) {
       const Value* name = find(*table, "name");
       const std::string* text = name ? std::get_if<std::string>(&name->data) : nullptr;
-      if (text && !text->empty()) names_.give(*text, name->where);
+      if (text && !text->empty()) names_.reserve(*text, name->where);
     }
   }
 }
 
-/// What has a name keeps it; the parts of one thing are numbered.
+/// Names all solids; those of a table that made several get ".0", ".1" and so on appended.
 void Loader::name_solids() {
-  give_names(document_, {"solid", "body", "ball"});
+  reserve_names(document_, {"solid", "body", "ball"});
   if (const Value* script = find(document_, "script")) {
     as_table(*script, "[script]");
-    give_names(*script, {"shot", "wrecking_ball"});
+    reserve_names(*script, {"shot", "wrecking_ball"});
   }
-  for (const Made& made : made_) {
-    const std::string name = made.name.empty() ? names_.pick(made.usual, made.where) : made.name;
-    for (std::size_t i = 0; i < made.count; ++i) {
-      std::string& part = scene_.solids[made.first + i].name;
-      part = made.count == 1 ? name : name + "." + std::to_string(i);
-      if (made.count > 1) names_.give(part, made.where);
+  for (const SolidGroup& group : groups_) {
+    const std::string name =
+        group.name.empty() ? names_.reserve_default(group.default_name, group.where) : group.name;
+    for (std::size_t i = 0; i < group.count; ++i) {
+      std::string& part = scene_.solids[group.first + i].name;
+      part = group.count == 1 ? name : name + "." + std::to_string(i);
+      if (group.count > 1) names_.reserve(part, group.where);
     }
   }
 }

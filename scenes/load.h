@@ -1,7 +1,7 @@
-// Scene files become scenes, and materials are found by name.
+// Loads scene files, lists the scenes that come with the program, and finds materials by name.
 //
-// Read first: load_scene() in load.cpp, then schema.h for what a file may say. README.md lists
-// every key.
+// Read first: parse_scene() in load.cpp, then file/schema.h for the tables and keys of a file.
+// README.md lists every key.
 #pragma once
 
 #include <filesystem>
@@ -10,33 +10,34 @@
 
 #include "engine/model/scene.h"
 
-#ifndef SUNDER_SCENES_FOLDER  // given by the CMake target to those who link it
+#ifndef SUNDER_SCENES_FOLDER  // defined by the CMake target for targets that link it
 #define SUNDER_SCENES_FOLDER ""
 #endif
 
 namespace sunder::scenes {
 
-/// How the user changes a scene without editing it.
+/// Changes to a scene without editing its file.
 struct LoadOptions {
   std::string preset = "realtime";  ///< draft | realtime | accurate | reference
-  std::vector<std::string> set;     ///< key=value, a dotted key of the file.
+  std::vector<std::string> set;     ///< Assignments KEY=VALUE with a dotted key of the file.
 };
 
-/// The file itself, or that of the scene of this name in the catalogue in `folder`
-/// (scenes_folder()). Throws InputError naming those there are.
+/// Returns the file itself if there is one, otherwise the file of the scene of this name in the
+/// catalogue, scenes_folder(folder). Throws InputError that lists the scenes if there is neither.
 std::filesystem::path scene_file(const std::string& file_or_name,
                                  const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
-/// Loads scene_file(). Throws InputError naming file, line, key, and what is allowed.
+/// Loads scene_file(). Throws InputError that names file, line, key and the allowed values.
 Scene load_scene(const std::string& file_or_name, const LoadOptions& options = {},
                  const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
-/// The scene that a text describes; `file` is what errors call it, its stem the scene's name.
+/// Returns the scene that a text describes. Errors name `file`, its stem is the scene's name, and
+/// the files that the scene names are sought in its folder. Throws InputError.
 Scene parse_scene(const std::string& text, const std::string& file,
                   const LoadOptions& options = {});
 
-/// The library of materials that every scene file starts from: brick, concrete, glass, steel and
-/// so on (scenes/materials.toml), for scenes made in code.
+/// Returns the materials that every scene file starts from: brick, concrete, glass, steel and so on
+/// (scenes/materials.toml). For scenes made in code.
 std::vector<Material> builtin_materials();
-/// The material of that name in a scene. Throws InputError, naming those there are.
+/// Returns the material of this name. Throws InputError that lists the materials if there is none.
 MaterialIndex material_named(const Scene& scene, const std::string& name);
 
 struct CatalogEntry {
@@ -44,14 +45,14 @@ struct CatalogEntry {
   std::filesystem::path file;
   std::string description;
 };
-/// The scenes that come with the program, by name.
+/// Returns the scenes that come with the program, sorted by name.
 std::vector<CatalogEntry> catalog(const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
-/// The folder they lie in: that beside the running program if it is an installed one, else
-/// `folder`: where they were installed with the library, or the source tree. Throws InputError if
-/// there is neither.
+/// Returns the folder of the catalogue: share/sunder/scenes beside the running program if that is
+/// installed, otherwise `folder`, which is the one installed with the library or that of the source
+/// tree. Throws InputError if neither exists.
 std::filesystem::path scenes_folder(const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
 
-/// Every table and key of a scene file with unit, default and what is allowed, as Markdown.
+/// Returns every table and key of a scene file with unit, default and allowed values, as Markdown.
 std::string key_reference();
 
 }  // namespace sunder::scenes

@@ -21,19 +21,20 @@
 namespace sunder::scenes {
 namespace {
 
-/// Of the air that carries dust: what the largest scenes need, and what a frame can spare.
+/// Cells of the air grid for dust: enough for the largest scenes, few enough for a frame's time.
 const Eigen::Vector3i kAirCells(40, 24, 40);
 
-/// Writes breaks that went wrong to files, and says so when the run is over.
+/// Returns a log that writes failed breaks to case files and warns of them when it is destroyed, at
+/// the end of the run; null if both are off.
 std::shared_ptr<fracture::FailureLog> failure_log(const Scene& scene,
                                                   const SimulationOptions& options) {
   if (options.cases_folder.empty() && !options.warn) return nullptr;
   const std::string folder = options.cases_folder.string();
   double volume_m3 = 0;
   for (const Solid& solid : scene.solids) volume_m3 += volume(solid.compound);
-  const auto tell = [folder, volume_m3, warn = options.warn](fracture::FailureLog* log) {
+  const auto warn_and_delete = [folder, volume_m3, warn = options.warn](fracture::FailureLog* log) {
     if (log->failed() > 0 && warn) {
-      std::string text = left_whole_warning(log->failed(), log->failed_m3(), volume_m3);
+      std::string text = uncut_convexes_warning(log->failed(), log->failed_m3(), volume_m3);
       if (log->files() > 0) {
         text += "; " + std::to_string(log->files()) + " breaks are kept in " + folder +
                 "/, to look into by `sunder fracture`";
@@ -42,10 +43,10 @@ std::shared_ptr<fracture::FailureLog> failure_log(const Scene& scene,
     }
     delete log;
   };
-  return {new fracture::FailureLog(folder), tell};
+  return {new fracture::FailureLog(folder), warn_and_delete};
 }
 
-/// As many dimensions as the scene needs.
+/// Returns the planar solver for a planar scene, otherwise the solver in three dimensions.
 std::unique_ptr<Physics> make_physics(const Scene& scene) {
   if (scene.planar) {
     solver::PlanarOptions planar;
@@ -73,8 +74,8 @@ std::unique_ptr<Particles> make_particles(const Scene& scene) {
   return solver::make_debris_and_dust(options);
 }
 
-/// Of what lies under the ground where it stands, and of a scene in which nothing is.
-std::string placing_warning(const Scene& scene) {
+/// Returns a warning of solids under the ground plane, or of an empty scene; empty if neither.
+std::string placement_warning(const Scene& scene) {
   if (scene.solids.empty() && scene.balls.empty() && scene.shots.empty()) return "nothing is in it";
   if (!scene.ground.meshes.empty()) return "";
   std::size_t under = 0;
@@ -107,11 +108,11 @@ std::string obsolete_warning(const Scene& scene) {
 }
 
 std::vector<std::string> warnings_of(const Scene& scene) {
-  std::vector<std::string> warnings = chain_warnings(scene, kMostSubsteps);
-  const std::string standing = accuracy_warning(scene, kMostSubsteps);
+  std::vector<std::string> warnings = chain_warnings(scene, kMaxSubsteps);
+  const std::string accuracy = accuracy_warning(scene, kMaxSubsteps);
   for (const std::string& warning :
-       {standing.empty() ? crush_warning(scene, kMostSubsteps) : standing, post_warning(scene),
-        long_step_warning(scene), far_warning(scene), placing_warning(scene),
+       {accuracy.empty() ? crush_warning(scene, kMaxSubsteps) : accuracy, post_warning(scene),
+        long_step_warning(scene), far_warning(scene), placement_warning(scene),
         obsolete_warning(scene)}) {
     if (!warning.empty()) warnings.push_back(warning);
   }

@@ -1,5 +1,4 @@
-// Scenes become simulations: our solver, our fracture, debris and dust around a scene, as the
-// program has them.
+// Makes simulations of scenes, with the program's solver, fracture, debris and dust.
 #pragma once
 
 #include <filesystem>
@@ -14,22 +13,23 @@
 namespace sunder::scenes {
 
 struct SimulationOptions {
-  int threads = 0;  ///< For all that is computed from now on; 0: as it is, one a processor.
-  /// Where breaks whose parts would not add up are kept, to look into by `sunder fracture`; empty:
-  /// nowhere.
+  int threads =
+      0;  ///< Threads of the process from now on; 0: unchanged, initially one a processor.
+  /// Folder for case files of breaks whose parts do not sum to the volume before, for
+  /// `sunder fracture`; empty: none are written.
   std::filesystem::path cases_folder;
-  /// Told, in a sentence, what the user should know, now and when the run is over; may be empty.
+  /// Called with each warning to the user, a sentence, now and at the end of the run; may be empty.
   std::function<void(const std::string& warning)> warn;
-  /// Frames have an Inspection, for debug views; it takes time, and the run is the same.
+  /// True if frames have an Inspection, for debug views. This takes time; the run is unchanged.
   bool inspect = false;
 };
 
-/// A source of frames: frame 0 is the scene as given, then one every 1/60 s until the scene's
-/// duration has passed. The same bits for any number of threads. Throws InputError for a planar
-/// scene that needs a third dimension.
+/// Returns a source of frames: frame 0 is the scene as given, then one every 1/60 s until the
+/// scene's duration has passed. Frames are bit-identical for any number of threads. Throws
+/// InputError for a planar scene that needs a third dimension.
 std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options = {});
 
-/// What Statistics say about a run of the scene; the preset is that of its LoadOptions.
+/// Returns the description of a run for Statistics; `preset` is that of the scene's LoadOptions.
 RunInfo run_info(const Scene& scene, const std::string& preset = "realtime");
 
 }  // namespace sunder::scenes

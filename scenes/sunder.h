@@ -1,5 +1,5 @@
-// Sunder as a library, all of it: a scene becomes a simulation, which is pumped as frames into
-// sinks.
+// The whole public interface of Sunder as a library: make a simulation of a scene, and pump its
+// frames into sinks.
 //
 //   #include <sunder/sunder.h>
 //
@@ -9,14 +9,14 @@
 //   sunder::FrameSink* const sinks[] = {video.get(), &hash};
 //   sunder::pump(*simulation, sinks);
 //
-// Read next: scene.h for what there is in a scene, frame.h for what comes out.
+// Read next: scene.h for the input, frame.h for the output.
 #pragma once
 
 #include "engine/base/check.h"                  // InputError, FileError
 #include "engine/base/types.h"                  // Vec3, Quat, Pose, Box
 #include "engine/geometry/convex_polyhedron.h"  // make_box(), make_prism(), make_hull()
+#include "engine/io/recording/recording.h"      // RecordingWriter, RecordingReader
 #include "engine/io/statistics.h"               // Statistics, StateHash
-#include "engine/io/take/take.h"                // TakeWriter, TakeReader
 #include "engine/model/compound.h"              // Part, Compound
 #include "engine/model/frame.h"                 // Frame, FrameSource, FrameSink, pump()
 #include "engine/model/joint.h"

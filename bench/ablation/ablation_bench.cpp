@@ -1,5 +1,5 @@
 // What each rule of the rigid solver buys: it is turned off by its number in
-// solver/rigid/tolerances.h, and reference behaviour and piles are measured without it. The page
+// solver/rigid/tuning.h, and reference behaviour and piles are measured without it. The page
 // docs/ablation.md is what this prints.
 //
 //   ablation_bench [--rule SUBSTRING] [--set NUMBER=VALUE,...;...] [--preset NAME] [--jobs N]

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::ablation {
 namespace {

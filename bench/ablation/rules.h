@@ -6,7 +6,7 @@
 
 namespace sunder::ablation {
 
-/// A number of solver/rigid/tolerances.h, by name, and what it becomes.
+/// A number of solver/rigid/tuning.h, by name, and what it becomes.
 struct Change {
   std::string number;
   double value;

@@ -40,7 +40,7 @@ struct WholeState {
   int frames = 0;
   std::string what, hash;
 };
-std::optional<WholeState> find_whole(const HashBook& book, const std::string& scene,
+std::optional<WholeState> find_whole(const StateHashes& book, const std::string& scene,
                                      const std::string& preset, const std::string& file) {
   const std::string place = "state/" + scene + "/" + preset + "/";
   const auto found = book.lower_bound(place);
@@ -145,8 +145,8 @@ std::optional<int> first_difference(const std::string& known, std::span<const st
   return std::nullopt;
 }
 
-std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
-                                  const std::string& file, bool whole) {
+std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& book,
+                                    const std::string& file, bool whole) {
   std::vector<Verdict> verdicts;
   const std::string scene = scenes::scene_file(run.scene).stem().string();
   for (const std::string& preset : preset_names()) {
@@ -168,7 +168,7 @@ std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
   return verdicts;
 }
 
-void accept_frames(const GuardedRun& run, HashBook& book) {
+void accept_frames(const GuardedRun& run, StateHashes& book) {
   for (const std::string& preset : preset_names()) {
     book[place_of(run.name, preset)] = found_digits(run, preset);
   }

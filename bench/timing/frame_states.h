@@ -30,12 +30,12 @@ struct GuardedRun {
 /// One for every preset that the book has frames for: "simulation at realtime" and so on; one that
 /// fails if it has none. `whole`: as well the states that `sunder bench` knows of the scene, if the
 /// run is of the scene as it is. `file` is what the book is called. Throws InputError.
-std::vector<Verdict> judge_frames(const GuardedRun& run, const HashBook& book,
-                                  const std::string& file, bool whole);
+std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& book,
+                                    const std::string& file, bool whole);
 
 /// Puts the states of the run into the book, until some time after the first break that does not
 /// come before the script's first action: 50 frames at its own preset, 8 at every other. Throws
 /// InputError.
-void accept_frames(const GuardedRun& run, HashBook& book);
+void accept_frames(const GuardedRun& run, StateHashes& book);
 
 }  // namespace sunder::bench

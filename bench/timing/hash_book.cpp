@@ -17,8 +17,8 @@ bool is_hash(const std::string& what, const std::string& text) {
 
 }  // namespace
 
-HashBook parse_hashes(const std::string& text, const std::string& file) {
-  HashBook book;
+StateHashes parse_hashes(const std::string& text, const std::string& file) {
+  StateHashes book;
   std::istringstream lines(text);
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -39,12 +39,12 @@ HashBook parse_hashes(const std::string& text, const std::string& file) {
   return book;
 }
 
-HashBook read_hashes(const std::string& file) {
+StateHashes read_hashes(const std::string& file) {
   if (!std::filesystem::exists(file)) return {};
   return parse_hashes(scenes::read_text(file), file);
 }
 
-std::string format_hashes(const HashBook& book) {
+std::string format_hashes(const StateHashes& book) {
   std::string text =
       "# What is known to be right. Changed by `sunder bench --accept` and `sunder golden accept`\n"
       "# alone: a line that differs says that something else is simulated, and should say why in\n"

@@ -12,13 +12,13 @@
 
 namespace sunder::bench {
 
-using HashBook = std::map<std::string, std::string>;
+using StateHashes = std::map<std::string, std::string>;
 
 /// From the text of a file; `file` is what errors call it. Throws InputError naming the line.
-HashBook parse_hashes(const std::string& text, const std::string& file);
+StateHashes parse_hashes(const std::string& text, const std::string& file);
 /// Of a file; none if there is no file.
-HashBook read_hashes(const std::string& file);
+StateHashes read_hashes(const std::string& file);
 /// As a file has it.
-std::string format_hashes(const HashBook& book);
+std::string format_hashes(const StateHashes& book);
 
 }  // namespace sunder::bench

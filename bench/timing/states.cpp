@@ -31,7 +31,7 @@ std::string name_of(const Figures& scene) {
          std::to_string(static_cast<int>(number_at(scene, "/state/frames")));
 }
 
-Verdict judge_state(const Figures& scene, const HashBook& book, const std::string& file) {
+Verdict judge_state(const Figures& scene, const StateHashes& book, const std::string& file) {
   Verdict verdict{text_at(scene, "/scene"), "state", Outcome::kFailed, {}};
   verdict.seconds = 1e-3 * number_at(scene, "/frame/mean_ms") * number_at(scene, "/frames") *
                     std::max(1.0, number_at(scene, "/repeats"));
@@ -54,14 +54,14 @@ Verdict judge_state(const Figures& scene, const HashBook& book, const std::strin
 
 }  // namespace
 
-std::vector<Verdict> judge_states(std::span<const Figures> scenes, const HashBook& book,
-                                  const std::string& file) {
+std::vector<Verdict> compare_states(std::span<const Figures> scenes, const StateHashes& book,
+                                    const std::string& file) {
   std::vector<Verdict> verdicts;
   for (const Figures& scene : scenes) verdicts.push_back(judge_state(scene, book, file));
   return verdicts;
 }
 
-void accept_states(std::span<const Figures> scenes, HashBook& book) {
+void accept_states(std::span<const Figures> scenes, StateHashes& book) {
   for (const Figures& scene : scenes) {
     const std::string why = differs(scene) ? kDiffers : not_held(scene);
     if (!why.empty()) throw InputError("--accept: " + text_at(scene, "/scene") + ": " + why);

@@ -14,11 +14,11 @@ namespace sunder::bench {
 
 /// One for each scene. A run that was changed by --set or is too short has no stored state to be
 /// held against, and is skipped; any other that has none fails. `file` is what the book is called.
-std::vector<Verdict> judge_states(std::span<const Figures> scenes, const HashBook& book,
-                                  const std::string& file);
+std::vector<Verdict> compare_states(std::span<const Figures> scenes, const StateHashes& book,
+                                    const std::string& file);
 
-/// Puts the state of every scene into the book. Throws InputError for one that judge_states() would
-/// skip, or whose repeats differ.
-void accept_states(std::span<const Figures> scenes, HashBook& book);
+/// Puts the state of every scene into the book. Throws InputError for one that compare_states()
+/// would skip, or whose repeats differ.
+void accept_states(std::span<const Figures> scenes, StateHashes& book);
 
 }  // namespace sunder::bench

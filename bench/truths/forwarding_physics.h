@@ -19,9 +19,14 @@ class ForwardingPhysics : public Physics {
   }
   void edit(const BodyEdit& edit) override { physics_->edit(edit); }
   void collide(double horizon_s) override { physics_->collide(horizon_s); }
-  std::vector<Approach> approaches() override { return physics_->approaches(); }
+  std::vector<SpeculativeContact> speculative_contacts() override {
+    return physics_->speculative_contacts();
+  }
   std::vector<Touch> touches(std::span<const BodyId> bodies) override {
     return physics_->touches(bodies);
+  }
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return physics_->probe(std::move(cluster));
   }
   void set_state(BodyId body, const BodyState& state) override { physics_->set_state(body, state); }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override {
@@ -36,13 +41,15 @@ class ForwardingPhysics : public Physics {
   void strengthen(JointId joint, const SectionStrength& strength) override {
     physics_->strengthen(joint, strength);
   }
-  std::vector<JointFlow> joint_flows() const override { return physics_->joint_flows(); }
+  std::vector<PlasticFlow> plastic_flows() const override { return physics_->plastic_flows(); }
   void cut(JointId joint) override { physics_->cut(joint); }
   std::vector<JointId> take_broken() override { return physics_->take_broken(); }
   SolveReport solve(double dt_s, int substeps) override { return physics_->solve(dt_s, substeps); }
   BodyStates states() const override { return physics_->states(); }
-  std::vector<ContactLoad> contact_loads() const override { return physics_->contact_loads(); }
-  std::vector<JointLoad> joint_loads() const override { return physics_->joint_loads(); }
+  std::vector<ContactImpulse> contact_impulses() const override {
+    return physics_->contact_impulses();
+  }
+  std::vector<JointImpulse> joint_impulses() const override { return physics_->joint_impulses(); }
   std::vector<float> penetrations() const override { return physics_->penetrations(); }
   std::vector<WorkItem> take_work() override { return physics_->take_work(); }
 

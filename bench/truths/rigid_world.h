@@ -103,7 +103,7 @@ class RigidWorld {
   BodyId add(const BodyDesc& desc) {
     ids_.push_back(physics_->replace({}, std::span(&desc, 1)).front());
     masses_.push_back(desc.is_static ? 0 : desc.mass_kg);
-    inertias_.push_back(spinnable(desc.inertia_B));
+    inertias_.push_back(bounded_inertia(desc.inertia_B));
     return ids_.back();
   }
   void remove(BodyId id) {
@@ -119,7 +119,7 @@ class RigidWorld {
     for (std::size_t i = 0; i < come.size(); ++i) {
       ids_.push_back(ids[i]);
       masses_.push_back(come[i].is_static ? 0 : come[i].mass_kg);
-      inertias_.push_back(spinnable(come[i].inertia_B));
+      inertias_.push_back(bounded_inertia(come[i].inertia_B));
     }
     return ids;
   }

@@ -58,7 +58,7 @@ Bands filled(const Preset& preset, std::uint64_t seed) {
   for (const BodyId id : grains) top_m = std::max(top_m, world.state(id).X_WB.position.y());
   Bands pressure{};
   world.watch(0.5, [&] {
-    for (const ContactLoad& load : world.physics().contact_loads()) {
+    for (const ContactImpulse& load : world.physics().contact_impulses()) {
       const double depth = (top_m - load.point_W.y()) / top_m * kBands;
       const auto band = static_cast<std::size_t>(std::clamp(depth, 0.0, kBands - 1.0));
       pressure[band] += std::hypot(load.impulse_W.x(), load.impulse_W.z());

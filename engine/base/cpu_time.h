@@ -1,11 +1,11 @@
-// Processor time, which a busy machine changes little.
+// Processor time, which depends little on the load from other processes.
 #pragma once
 
 #include <ctime>
 
 namespace sunder {
 
-/// Milliseconds that all threads of this process have used so far.
+/// Returns the processor time that all threads of this process have used so far, in ms.
 inline double cpu_ms() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

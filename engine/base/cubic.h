@@ -1,14 +1,15 @@
-// Between the keys of paths: Hermite's cubics, with the slopes of Fritsch and Butland (1984), which
-// make each component monotone from key to key.
+// Interpolation between keyframes by Hermite cubics, with the slopes of Fritsch and Butland (1984),
+// which make each component monotone between keys.
 #pragma once
 
 #include "engine/base/types.h"
 
 namespace sunder {
 
-/// The slope where lines of these slopes meet, that long: 0 where a component turns back or stays.
+/// Returns the slope at a key from those of the chords before and after, of durations `before_s`
+/// and `after_s`; 0 in components that turn back or where a chord is level.
 template <class Vector>
-Vector slope_between(const Vector& before, double before_s, const Vector& after, double after_s) {
+Vector monotone_slope(const Vector& before, double before_s, const Vector& after, double after_s) {
   const double weight = (before_s + 2 * after_s) / (3 * (before_s + after_s));
   Vector slope = Vector::Zero();
   for (Eigen::Index i = 0; i < slope.size(); ++i) {
@@ -18,11 +19,12 @@ Vector slope_between(const Vector& before, double before_s, const Vector& after,
   return slope;
 }
 
-/// By how much a cubic is off the straight line of slope `line`, `s` (0 to 1) of the way along it,
-/// with these slopes at its ends; for a way that takes a second.
+/// Returns the difference between the Hermite cubic and its chord at `s` (0 to 1), for a segment of
+/// 1 s: `chord_slope` is the slope of the chord, `begin_slope` and `end_slope` those at its ends.
 template <class Vector>
-Vector bow(double s, const Vector& line, const Vector& begin, const Vector& end) {
-  return s * (1 - s) * ((1 - s) * (begin - line) - s * (end - line));
+Vector cubic_offset(double s, const Vector& chord_slope, const Vector& begin_slope,
+                    const Vector& end_slope) {
+  return s * (1 - s) * ((1 - s) * (begin_slope - chord_slope) - s * (end_slope - chord_slope));
 }
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// Things joined two by two, and the sets that come of it.
+// A union-find structure.
 #pragma once
 
 #include <algorithm>
@@ -9,29 +9,29 @@
 
 namespace sunder {
 
-/// Each set is named by its least member, whatever the order of joining (union-find with path
-/// halving).
+/// Disjoint sets of numbers (union-find with path halving). The root of a set is its least member,
+/// whatever the order of joining.
 class DisjointSets {
  public:
-  /// Members 0 to count − 1, each alone.
+  /// Makes a set of one member for each of 0 to count − 1.
   explicit DisjointSets(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
 
-  /// The least member of the set that `member` is in.
+  /// Returns the least member of the set that contains `member`.
   std::uint32_t root(std::uint32_t member) {
     while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
     return member;
   }
 
-  /// Makes one set of two; whether they were two.
+  /// Unites the sets of `a` and `b`. Returns true if they were different sets.
   bool join(std::uint32_t a, std::uint32_t b) {
     a = root(a), b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
     return a != b;
   }
 
-  /// The root of every member.
+  /// Returns the root of each member.
   std::vector<std::uint32_t> roots() {
     for (std::uint32_t& parent : parent_) parent = root(parent);
     return parent_;

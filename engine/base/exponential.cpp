@@ -6,7 +6,7 @@
 namespace sunder {
 namespace {
 
-// ln 2 in two parts: a whole number below 2^20 times the first is exact.
+// ln 2 as the sum of two parts. The product of kLn2High and an integer below 2^20 is exact.
 constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 
 }  // namespace
@@ -15,7 +15,7 @@ double natural_logarithm(double x) {
   int power = 0;
   double mantissa = std::frexp(x, &power);  // 0.5 to 1
   if (mantissa < std::numbers::sqrt2 / 2) mantissa *= 2, --power;
-  // ln m = 2 artanh t, t = (m - 1) / (m + 1), of at most 0.172.
+  // ln m = 2 artanh t with t = (m - 1) / (m + 1), |t| <= 0.172.
   const double t = (mantissa - 1) / (mantissa + 1), square = t * t;
   double sum = 0;
   for (int i = 23; i >= 1; i -= 2) sum = sum * square + 1.0 / i;
@@ -24,7 +24,7 @@ double natural_logarithm(double x) {
 
 double exponential(double x) {
   const double power = std::floor(x / std::numbers::ln2 + 0.5);
-  const double rest = (x - power * kLn2High) - power * kLn2Low;  // at most 0.35
+  const double rest = (x - power * kLn2High) - power * kLn2Low;  // |rest| <= 0.35
   double sum = 1;
   for (int i = 16; i >= 1; --i) sum = 1 + sum * rest / i;
   return std::ldexp(sum, static_cast<int>(power));

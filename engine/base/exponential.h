@@ -1,15 +1,15 @@
-// Exponential and logarithm from series: the C library's differ between processors, and simulated
-// state may not.
+// Exponential and logarithm by series. The C library's functions give different bits on different
+// processors, which simulated state must not.
 #pragma once
 
 namespace sunder {
 
-/// Natural logarithm of a positive, normal number, within 1e-15 of it or of 1. The same bits on
-/// every machine.
+/// Returns the natural logarithm of a positive, normal number, with an error of at most 1e-15,
+/// relative or absolute, whichever is larger. Gives the same bits on every machine.
 double natural_logarithm(double x);
 
-/// e to the power of `x`, |x| <= 700, within 1e-15·(1 + |x|) of its value. The same bits on every
-/// machine.
+/// Returns e to the power of `x`, |x| <= 700, with a relative error of at most 1e-15·(1 + |x|).
+/// Gives the same bits on every machine.
 double exponential(double x);
 
 }  // namespace sunder

@@ -1,5 +1,6 @@
-// What is fast and what is soon for a piece of a size. Tolerances of motion follow from these and
-// from the step, never from a number of metres, so that pebbles do as boulders do.
+// Reference speeds and times for bodies of a given size, by Froude scaling. Tolerances of motion
+// derive from these and the time step, not from fixed lengths, so that behaviour does not depend on
+// scale (decision 034).
 #pragma once
 
 #include <algorithm>
@@ -9,21 +10,21 @@
 
 namespace sunder {
 
-/// Speeds and times of falling (Froude's scaling).
+/// Speeds and times of free fall under the gravity of a scene.
 class FroudeScale {
  public:
   explicit FroudeScale(const Vec3& gravity_W)
-      : gravity_m_s2_(std::max(kLeastGravity_m_s2, gravity_W.norm())) {}
+      : gravity_m_s2_(std::max(kMinGravity_m_s2, gravity_W.norm())) {}
 
-  /// What is weightless is judged as if it weighed this much.
-  static constexpr double kLeastGravity_m_s2 = 1;
+  /// Least gravity used for scaling, in m/s², so that scenes without gravity have tolerances too.
+  static constexpr double kMinGravity_m_s2 = 1;
   double gravity_m_s2() const { return gravity_m_s2_; }
-  /// About what a piece has after falling by its size: √(g·size).
+  /// Approximate speed of a body that has fallen by its own size: √(g·size).
   double speed_m_s(double size_m) const { return std::sqrt(gravity_m_s2_ * size_m); }
-  /// About what that takes: √(size/g).
+  /// Approximate time in which a body falls by its own size: √(size/g).
   double time_s(double size_m) const { return std::sqrt(size_m / gravity_m_s2_); }
-  /// What a step can hardly tell from rest: a tenth of what gravity does in it.
-  double still_m_s(double dt_s) const { return 0.1 * gravity_m_s2_ * dt_s; }
+  /// Speed below which a body counts as at rest: 0.1·g·dt, a tenth of what gravity adds in a step.
+  double rest_speed_m_s(double dt_s) const { return 0.1 * gravity_m_s2_ * dt_s; }
 
  private:
   double gravity_m_s2_;

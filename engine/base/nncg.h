@@ -1,28 +1,30 @@
-// Nonsmooth nonlinear conjugate gradients (NNCG: Silcowitz-Hansen, Niebe and Erleben 2010) around
-// sweeps of projected Gauss-Seidel, which come to the same solution in far fewer sweeps.
+// Nonsmooth nonlinear conjugate gradients (NNCG: Silcowitz-Hansen, Niebe and Erleben 2010), which
+// accelerate projected Gauss-Seidel: the solution needs far fewer sweeps.
 //
-// What a sweep changes stands for the gradient. After each sweep the solver goes on along the
-// direction so far,
-//     step = beta · direction,  x += step,  direction = step + change,
-// in the layout of its own x; how far is the same for all, and said here.
+// The change of x by a sweep takes the place of the negative gradient. After each sweep the solver
+// applies
+//     step = beta · direction,  x += step,  direction = step + change
+// to its own arrays. This file computes beta, which all solvers share.
 #pragma once
 
 namespace sunder {
 
-/// The beta of each sweep of a solve.
+/// Computes the beta of each sweep of one solve.
 class Nncg {
  public:
-  /// Of Fletcher and Reeves, from the square of what the last sweep changed, in any norm that the
-  /// solver keeps to: what it is over what it was. 0 begins anew: after the first sweep, and where
-  /// changes have grown.
-  double beta(double square) {
-    const double beta = last_ > 0 && square <= last_ ? square / last_ : 0;
-    last_ = square;
+  /// Returns the beta of Fletcher and Reeves: the squared norm of the last sweep's change over that
+  /// of the sweep before, in any norm that the solver uses throughout. Returns 0, which restarts
+  /// the method, after the first sweep and where the change has grown.
+  double beta(double squared_change) {
+    const double beta = previous_squared_change_ > 0 && squared_change <= previous_squared_change_
+                            ? squared_change / previous_squared_change_
+                            : 0;
+    previous_squared_change_ = squared_change;
     return beta;
   }
 
  private:
-  double last_ = 0;
+  double previous_squared_change_ = 0;
 };
 
 }  // namespace sunder

@@ -1,6 +1,6 @@
-// The threads that share loops: a team that is started once, by OpenMP, and then waits for work at
-// a door of our own. An OpenMP region for each loop would end only when every thread has come to
-// its end: a thread that lost its processor, or sleeps, would hold up those that are done.
+// The thread team of parallel loops. OpenMP starts the threads once; an epoch counter then tells
+// them when a loop is open to join. An OpenMP region for each loop would end only when all threads
+// have reached its end, so a preempted or sleeping thread would delay the others.
 #include "engine/base/parallel.h"
 
 #include <cstdint>
@@ -11,91 +11,93 @@
 namespace sunder {
 namespace {
 
-int thread_count = 0;               // the one process-wide setting: 0 until set
-thread_local bool is_busy = false;  // with a loop: those within it are not shared
+int thread_count = 0;               // process-wide; 0 until set
+thread_local bool is_busy = false;  // in a parallel loop: nested loops are serial
 
-/// Lets another thread of this processor go first.
-void pause() {
+/// Yields the core to its other hardware thread in a spin loop.
+void spin_pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
 #endif
 }
 
-class Team {
+class ThreadTeam {
  public:
   void run(void (*call)(const void*), const void* work);
 
  private:
-  // How long a thread looks out for work before it sleeps: the time it would take to wake it.
-  static constexpr int kLooks = 1000;
+  // Number of polls before a waiting thread sleeps: about the time that waking it takes.
+  static constexpr int kMaxSpins = 1000;
 
-  void enlist(int helpers);
-  void serve(int rank);
-  std::uint32_t wait_while(std::uint32_t door) const;
+  void start_helpers(int helpers);
+  void run_worker(int rank);
+  std::uint32_t wait_for_new_epoch(std::uint32_t epoch) const;
 
-  std::mutex in_use_;
-  int enlisted_ = 0;
-  // Odd while open; one more each time it opens or closes.
-  std::atomic<std::uint32_t> door_{0};
-  std::atomic<int> inside_{0};
-  // Of the loop behind the open door.
-  int helpers_ = 0;
+  std::mutex mutex_;
+  int started_ = 0;
+  // Odd while a loop is open to join; incremented when a loop opens and when it closes.
+  std::atomic<std::uint32_t> epoch_{0};
+  std::atomic<int> active_{0};  // workers in the open loop, or about to test whether it is open
+  // The open loop.
+  int helper_count_ = 0;
   void (*call_)(const void*) = nullptr;
   const void* work_ = nullptr;
 };
 
-void Team::run(void (*call)(const void*), const void* work) {
-  const std::unique_lock lock(in_use_, std::try_to_lock);
+void ThreadTeam::run(void (*call)(const void*), const void* work) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return call(work);  // another thread's loop has the team
-  helpers_ = threads() - 1;
-  enlist(helpers_);
+  helper_count_ = threads() - 1;
+  start_helpers(helper_count_);
   call_ = call;
   work_ = work;
-  ++door_;
-  door_.notify_all();
+  ++epoch_;
+  epoch_.notify_all();
   is_busy = true;
   call(work);
   is_busy = false;
-  ++door_;
-  // Whoever came in before it closed is at work on the rest.
-  for (int looks = 0; inside_ > 0; ++looks) looks < kLooks ? pause() : std::this_thread::yield();
+  ++epoch_;
+  // Workers that joined before the loop closed may still be at work.
+  for (int spins = 0; active_ > 0; ++spins)
+    spins < kMaxSpins ? spin_pause() : std::this_thread::yield();
 }
 
-/// They serve until the process ends.
-void Team::enlist(int helpers) {
-  if (helpers <= enlisted_) return;
-  const int first = enlisted_, count = helpers - enlisted_;
+/// Starts threads until there are `helpers`; they run until the process ends.
+void ThreadTeam::start_helpers(int helpers) {
+  if (helpers <= started_) return;
+  const int first = started_, count = helpers - started_;
   std::thread([this, first, count] {
 #pragma omp parallel num_threads(count)
-    serve(first + omp_get_thread_num());
+    run_worker(first + omp_get_thread_num());
   }).detach();
-  enlisted_ = helpers;
+  started_ = helpers;
 }
 
-void Team::serve(int rank) {
+void ThreadTeam::run_worker(int rank) {
   is_busy = true;
-  for (std::uint32_t door = 0;;) {
-    door = wait_while(door);
-    if (door % 2 == 0) continue;
-    ++inside_;
-    // Still open after we are counted: it cannot end without us.
-    if (door_ == door && rank < helpers_) call_(work_);
-    --inside_;
+  for (std::uint32_t epoch = 0;;) {
+    epoch = wait_for_new_epoch(epoch);
+    if (epoch % 2 == 0) continue;
+    ++active_;
+    // If the loop is still open after the increment, its owner waits for this worker.
+    if (epoch_ == epoch && rank < helper_count_) call_(work_);
+    --active_;
   }
 }
 
-std::uint32_t Team::wait_while(std::uint32_t door) const {
-  for (int looks = 0; looks < kLooks; ++looks) {
-    if (const std::uint32_t now = door_; now != door) return now;
-    pause();
+std::uint32_t ThreadTeam::wait_for_new_epoch(std::uint32_t epoch) const {
+  for (int spins = 0; spins < kMaxSpins; ++spins) {
+    if (const std::uint32_t now = epoch_; now != epoch) return now;
+    spin_pause();
   }
-  door_.wait(door);
-  return door_;
+  epoch_.wait(epoch);
+  return epoch_;
 }
 
-Team& team() {
-  static Team* const one = new Team;  // never destroyed: its threads may outlive main()
-  return *one;
+ThreadTeam& team() {
+  // Never destroyed: its threads may outlive main().
+  static ThreadTeam* const instance = new ThreadTeam;
+  return *instance;
 }
 
 }  // namespace
@@ -107,8 +109,10 @@ int threads() {
   return thread_count;
 }
 
-bool may_share_work() { return !is_busy && threads() > 1; }
+bool can_run_parallel() { return !is_busy && threads() > 1; }
 
-void detail::work_together(void (*call)(const void*), const void* work) { team().run(call, work); }
+void detail::run_on_free_threads(void (*call)(const void*), const void* work) {
+  team().run(call, work);
+}
 
 }  // namespace sunder

@@ -1,5 +1,5 @@
-// Loops over fixed chunks: what a chunk is never depends on the number of threads, so neither
-// does any result. Read first: for_chunks().
+// Parallel loops over chunks of fixed size. Chunks do not depend on the number of threads, so
+// results do not either. Begin with for_chunks().
 #pragma once
 
 #include <algorithm>
@@ -13,51 +13,52 @@
 
 namespace sunder {
 
-/// Threads used by every parallel loop from now on; 0 means one per processor.
+/// Sets the number of threads of all later parallel loops; 0 means one per processor.
 void set_threads(int count);
-/// Threads in use.
+/// Returns the number of threads of parallel loops.
 int threads();
-/// Whether more than this thread would work on a loop: not with one thread, nor within a loop.
-bool may_share_work();
+/// Returns true if other threads could take part in a loop that this thread starts now.
+bool can_run_parallel();
 
 namespace detail {
-void work_together(void (*call)(const void*), const void* work);
+void run_on_free_threads(void (*call)(const void*), const void* work);
 }  // namespace detail
 
-/// Calls `work()` on this thread, and on every other that comes while it runs; returns when all
-/// calls have. `work` itself hands out what there is to do, and does not throw. Nothing waits for
-/// a thread that has not begun: on a busy machine this one does all of it.
+/// Calls `work()` on this thread, and on each other thread that becomes free before the call
+/// returns here; returns when all calls have returned. `work` distributes the items itself and must
+/// not throw. Threads that have not begun are not waited for, so on a busy machine this thread may
+/// do all of the work (docs/decisions/019-thread-pool.md).
 template <class Work>
-void work_together(const Work& work) {
-  // What others do of it is a span of theirs, by the name of ours.
-  const char* const name = traced_span();
+void run_on_free_threads(const Work& work) {
+  // Other threads trace their part under the name of this thread's span.
+  const char* const name = current_span_name();
   const auto traced = [&work, name] {
     const TraceSpan span(name);
     work();
   };
   using Traced = decltype(traced);
-  detail::work_together([](const void* all) { (*static_cast<Traced*>(all))(); }, &traced);
+  detail::run_on_free_threads([](const void* all) { (*static_cast<Traced*>(all))(); }, &traced);
 }
 
-/// Calls `work(begin, end, chunk)` for the chunks [0, n) is cut into; chunks run in any order on
-/// any thread, so `work` writes only what belongs to its chunk. Rethrows one exception, if any.
+/// Calls `work(begin, end, chunk)` for each chunk of [0, n). Chunks run in any order on any thread,
+/// so `work` must write only data of its chunk. Rethrows one exception, if any was thrown.
 template <class Work>
 void for_chunks(std::size_t n, std::size_t chunk_size, const Work& work) {
   const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
   auto run = [&](std::size_t c) { work(c * chunk_size, std::min(n, (c + 1) * chunk_size), c); };
-  if (chunks <= 1 || !may_share_work()) {
+  if (chunks <= 1 || !can_run_parallel()) {
     for (std::size_t c = 0; c < chunks; ++c) run(c);
     return;
   }
   std::atomic<std::size_t> next{0};
-  std::mutex failing;
+  std::mutex failure_mutex;
   std::exception_ptr failure;
-  work_together([&] {
+  run_on_free_threads([&] {
     for (std::size_t c; (c = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
       try {
         run(c);
       } catch (...) {
-        const std::lock_guard lock(failing);
+        const std::lock_guard lock(failure_mutex);
         failure = std::current_exception();
       }
     }
@@ -65,8 +66,8 @@ void for_chunks(std::size_t n, std::size_t chunk_size, const Work& work) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Returns the items that `find(begin, end, found)` adds to `found` for each of these chunks, in
-/// the order of the chunks.
+/// Calls `find(begin, end, found)` for each chunk of [0, n) and returns the items that the calls
+/// append to `found`, in the order of the chunks.
 template <class Item, class Find>
 std::vector<Item> collect_chunks(std::size_t n, std::size_t chunk_size, const Find& find) {
   std::vector<std::vector<Item>> found((n + chunk_size - 1) / chunk_size);

@@ -1,11 +1,11 @@
-// Text as printf() has it.
+// Formatted text.
 #pragma once
 
 #include <string>
 
 namespace sunder {
 
-/// At most 255 characters; what is longer is cut off.
+/// Returns text formatted as by printf(), truncated to 255 bytes.
 [[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...);
 
 }  // namespace sunder

@@ -1,5 +1,4 @@
-// Counter-based random numbers: a value depends on (seed, stream, counter) and nothing else, so
-// any thread may draw any of them.
+// Counter-based random numbers: a value depends on (seed, stream, counter) only.
 #pragma once
 
 #include <cmath>
@@ -10,20 +9,21 @@
 
 namespace sunder {
 
+/// A generator of pseudorandom numbers; equal seeds and streams give equal sequences.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t seed, std::uint64_t stream = 0)
       : key_(combine(seed, stream)) {}
 
   constexpr std::uint64_t bits() { return combine(key_, counter_++); }
-  /// Uniform in [0, 1), 53 bits.
+  /// Returns a number uniform in [0, 1), with 53 random bits.
   constexpr double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
   constexpr double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Uniform in [0, n), n > 0.
+  /// Returns an integer uniform in [0, n), n > 0.
   constexpr std::uint32_t below(std::uint32_t n) {
     return static_cast<std::uint32_t>(((bits() >> 32) * n) >> 32);
   }
-  /// Uniform on the unit sphere's surface (by rejection: no trigonometry).
+  /// Returns a unit vector of uniform direction, by rejection sampling (without trigonometry).
   Vec3 direction() {
     for (;;) {
       const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);

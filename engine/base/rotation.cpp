@@ -22,7 +22,7 @@ Vec3 rotation_vector(const Quat& rotation) {
   const double sine = rotation.vec().norm();
   if (!(sine > 0)) return Vec3::Zero();
   double angle = 2 * arc_tangent(sine, rotation.w());
-  if (rotation.w() < 0) angle -= 2 * std::numbers::pi;  // the same the short way round
+  if (rotation.w() < 0) angle -= 2 * std::numbers::pi;  // the rotation by the smaller angle
   return angle / sine * rotation.vec();
 }
 

@@ -7,21 +7,21 @@
 namespace sunder {
 namespace {
 
-/// What one thread has traced; only it writes there, and it outlives it.
+/// The spans of one thread. Only that thread writes them; the object outlives the thread.
 struct ThreadTrace {
   int thread = 0;
   const char* innermost = nullptr;
   std::vector<TracedSpan> spans;
 };
 
-std::mutex trace_mutex;  // of the list, not of what is in it
+std::mutex trace_mutex;  // protects the list, not its elements
 std::vector<std::unique_ptr<ThreadTrace>>& traces() {
   static auto* const all =
-      new std::vector<std::unique_ptr<ThreadTrace>>;  // as long as threads live
+      new std::vector<std::unique_ptr<ThreadTrace>>;  // never destroyed: threads may outlive main()
   return *all;
 }
 
-ThreadTrace& my_trace() {
+ThreadTrace& this_thread_trace() {
   thread_local ThreadTrace* mine = nullptr;
   if (!mine) {
     const std::lock_guard lock(trace_mutex);
@@ -39,12 +39,12 @@ Stopwatch trace_clock;
 std::atomic<bool> detail::tracing = false;
 
 void start_trace() {
-  take_trace();
+  stop_trace();
   trace_clock = {};
   detail::tracing = true;
 }
 
-std::vector<TracedSpan> take_trace() {
+std::vector<TracedSpan> stop_trace() {
   detail::tracing = false;
   const std::lock_guard lock(trace_mutex);
   std::vector<TracedSpan> all;
@@ -55,17 +55,17 @@ std::vector<TracedSpan> take_trace() {
   return all;
 }
 
-const char* traced_span() {
-  return detail::tracing.load(std::memory_order_relaxed) ? my_trace().innermost : nullptr;
+const char* current_span_name() {
+  return detail::tracing.load(std::memory_order_relaxed) ? this_thread_trace().innermost : nullptr;
 }
 
 double detail::trace_begin(const char* name, const char*& outer) {
-  outer = std::exchange(my_trace().innermost, name);
+  outer = std::exchange(this_thread_trace().innermost, name);
   return 1e3 * trace_clock.ms();
 }
 
 void detail::trace_end(const char* name, const char* outer, double begin_us) {
-  ThreadTrace& mine = my_trace();
+  ThreadTrace& mine = this_thread_trace();
   mine.innermost = outer;
   mine.spans.push_back({name, mine.thread, begin_us, 1e3 * trace_clock.ms() - begin_us});
 }

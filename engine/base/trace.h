@@ -1,4 +1,4 @@
-// Where the time went: a stopwatch for stages, and spans of every thread's time for a trace.
+// Time measurement: a stopwatch for stages, and a trace of named spans of all threads.
 #pragma once
 
 #include <atomic>
@@ -7,13 +7,13 @@
 
 namespace sunder {
 
-/// Milliseconds of wall time since it was made or last restarted.
+/// Measures wall time since construction or the last call of lap_ms().
 class Stopwatch {
  public:
   double ms() const {
     return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
   }
-  /// The time so far, starting anew.
+  /// Returns the elapsed time in ms and restarts the stopwatch.
   double lap_ms() {
     const double elapsed = ms();
     start_ = Clock::now();
@@ -25,17 +25,17 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// A span of a thread's time, as it was traced.
+/// A named interval of a thread's time.
 struct TracedSpan {
   const char* name = "";
-  int thread = 0;  ///< In the order in which they were first traced.
+  int thread = 0;  ///< Number of the thread, in order of first use.
   double begin_us = 0, duration_us = 0;
 };
 
-/// From now on spans are kept, until what there is is taken. Not while other threads work.
+/// Starts recording spans until stop_trace(). No other thread may be in a span.
 void start_trace();
-/// All that were kept, by thread and end, and stops.
-std::vector<TracedSpan> take_trace();
+/// Stops recording and returns all spans, sorted by thread, then by time of their end.
+std::vector<TracedSpan> stop_trace();
 
 namespace detail {
 extern std::atomic<bool> tracing;
@@ -43,11 +43,11 @@ double trace_begin(const char* name, const char*& outer);
 void trace_end(const char* name, const char* outer, double begin_us);
 }  // namespace detail
 
-/// This thread's innermost span; null if none, or if nobody traces.
-const char* traced_span();
+/// Returns the name of this thread's innermost span; null if there is none or no recording.
+const char* current_span_name();
 
-/// From here to the end of the block; costs a look at a flag while nobody traces. The name must
-/// live for ever; null: no span.
+/// Records a span from its construction to the end of the block. Costs one test of a flag while
+/// nothing is recorded. The name must have static lifetime; a null name records nothing.
 class TraceSpan {
  public:
   explicit TraceSpan(const char* name) {

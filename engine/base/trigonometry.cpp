@@ -5,7 +5,7 @@
 namespace sunder {
 namespace {
 
-// Taylor polynomials on |x| <= pi/4; the first term left out is below 1e-17.
+// Taylor polynomials for |x| <= pi/4. The first omitted term is below 1e-17.
 double sin_poly(double x) {
   const double z = x * x;
   double sum = -1.0 / 1307674368000.0;
@@ -34,7 +34,7 @@ double cos_poly(double x) {
 }  // namespace
 
 SinCos sin_cos(double angle_rad) {
-  // pi/2 in two parts (Cody and Waite), so that the reduction keeps its low bits.
+  // pi/2 as the sum of two parts (Cody and Waite), so that the reduction keeps the low bits.
   constexpr double kHalfPiHigh = 1.57079632673412561417e+00;
   constexpr double kHalfPiLow = 6.07710050650619224932e-11;
   const double quarter = std::floor(angle_rad / (kHalfPiHigh + kHalfPiLow) + 0.5);
@@ -54,11 +54,11 @@ SinCos sin_cos(double angle_rad) {
 
 double arc_tangent(double y, double x) {
   constexpr double kPi = 3.14159265358979323846;
-  const double across = std::abs(y), along = std::abs(x);
-  if (!(across > 0) && !(along > 0)) return 0;
-  const bool steep = across > along;
-  // Halving the angle twice leaves |t| < 0.2, where the series is short.
-  double t = steep ? along / across : across / along;
+  const double abs_y = std::abs(y), abs_x = std::abs(x);
+  if (!(abs_y > 0) && !(abs_x > 0)) return 0;
+  const bool is_steep = abs_y > abs_x;
+  // Halving the angle twice gives |t| < 0.2, for which the series needs few terms.
+  double t = is_steep ? abs_x / abs_y : abs_y / abs_x;
   t = t / (1 + std::sqrt(1 + t * t));
   t = t / (1 + std::sqrt(1 + t * t));
   const double z = t * t;
@@ -67,7 +67,7 @@ double arc_tangent(double y, double x) {
   double sum = 1.0 / 23;
   for (const double term : kSeries) sum = term - z * sum;
   const double angle = 4 * t * sum;
-  const double first_quadrant = steep ? kPi / 2 - angle : angle;
+  const double first_quadrant = is_steep ? kPi / 2 - angle : angle;
   const double upper = x < 0 ? kPi - first_quadrant : first_quadrant;
   return y < 0 ? -upper : upper;
 }

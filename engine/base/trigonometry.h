@@ -1,5 +1,5 @@
-// sin, cos and arc tangent from polynomials: the C library's differ between processors, and
-// simulated state may not.
+// Sine, cosine and arc tangent by polynomials. The C library's functions give different bits on
+// different processors, which simulated state must not.
 #pragma once
 
 namespace sunder {
@@ -9,12 +9,12 @@ struct SinCos {
   double cos;
 };
 
-/// Sine and cosine of an angle with |angle| <= 1e6 rad, within 4e-16 absolutely after reduction;
-/// the same bits on every machine.
+/// Returns sine and cosine of an angle, |angle| <= 1e6 rad, with an absolute error of at most 4e-16
+/// after reduction. Gives the same bits on every machine.
 SinCos sin_cos(double angle_rad);
 
-/// The angle of (x, y) from the x-axis, in [-pi, pi], within 1e-15; 0 for (0, 0). The same bits on
-/// every machine.
+/// Returns the angle of (x, y) from the x-axis in rad, in [-pi, pi], with an error of at most
+/// 1e-15; 0 for (0, 0). Gives the same bits on every machine.
 double arc_tangent(double y, double x);
 
 }  // namespace sunder

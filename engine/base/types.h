@@ -1,9 +1,8 @@
-// Vectors, rotations and poses: Eigen under the short names every room uses. Strong indices, so
-// that an index into one array cannot be used in another, and ids that notice when what they named
-// is gone. And what a mesh's file paints a face with, which every room hands on.
+// Basic types of all modules: vectors, rotations and poses (Eigen types under short names), boxes,
+// typed indices and ids, and the appearance of a face as its mesh file defines it.
 //
-// double for geometry and body positions, float (suffix f) for solver inner loops and drawing.
-// Poses follow monogram notation: X_WB is the pose of B in W, and X_WB * point_B == point_W.
+// Geometry and body positions use double; inner loops of solvers and rendering use float (suffix
+// f). Poses follow monogram notation: X_WB is the pose of B in W, and X_WB * point_B == point_W.
 #pragma once
 
 #include <compare>
@@ -27,7 +26,7 @@ using Vec3f = Eigen::Vector3f;
 using Mat3f = Eigen::Matrix3f;
 using Quatf = Eigen::Quaternionf;
 
-/// A rigid placement: rotation, then translation.
+/// A rigid transform: rotation, then translation.
 struct Pose {
   Vec3 position = Vec3::Zero();
   Quat rotation = Quat::Identity();
@@ -45,7 +44,7 @@ struct Pose {
   }
 };
 
-/// An axis-aligned box; empty (min > max) until extended.
+/// An axis-aligned bounding box; empty (min > max) until extended.
 struct Box {
   Vec3 min = Vec3::Constant(1e300);
   Vec3 max = Vec3::Constant(-1e300);
@@ -66,7 +65,8 @@ struct Box {
   }
 };
 
-/// An index into one kind of array; `Tag` tells which. Default-constructed: `none()`.
+/// An index into arrays of one kind, which `Tag` identifies, so that an index of another kind does
+/// not compile. A default-constructed index is `none()`.
 template <class Tag>
 struct Index {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -78,7 +78,8 @@ struct Index {
   constexpr auto operator<=>(const Index&) const = default;
 };
 
-/// A slot and the generation it had when the id was handed out: stale ids compare unequal.
+/// The number of a slot and its generation when the id was issued. The id of a removed object is
+/// not equal to the id of the object that reuses its slot.
 template <class Tag>
 struct Id {
   std::uint32_t slot = std::numeric_limits<std::uint32_t>::max();
@@ -88,28 +89,26 @@ struct Id {
   constexpr auto operator<=>(const Id&) const = default;
 };
 
-/// PNG or JPEG, as it was in its file, repeated beyond its edges; null: none.
-using Picture = std::shared_ptr<const std::vector<std::byte>>;
+/// An image as the PNG or JPEG bytes of its file, repeated beyond its edges; null if there is none.
+using EncodedImage = std::shared_ptr<const std::vector<std::byte>>;
 
-/// How smooth a surface is, and how much of a metal.
-struct Gloss {
-  float roughness = 1;        ///< From 0, which mirrors, to 1.
-  float metallic = 0;         ///< From 0 to 1, which has colour only in what it mirrors.
-  Picture picture = nullptr;  ///< Its green is multiplied into the one, its blue into the other.
+/// Metallic-roughness parameters of a surface, as in glTF.
+struct MetallicRoughness {
+  float roughness = 1;             ///< From 0 (mirror) to 1 (rough).
+  float metallic = 0;              ///< From 0 (dielectric) to 1 (metal).
+  EncodedImage picture = nullptr;  ///< Green scales roughness, blue scales metallic.
 };
 
-/// A colour, a picture that it is multiplied by, and what is too small for the mesh.
-struct Paint {
+/// The appearance of a face as its mesh file defines it: base colour, textures and gloss.
+struct Appearance {
   Vec3f color = Vec3f::Ones();  ///< Linear RGB.
-  Picture picture;
-  /// Whether texture coordinates count from a picture's lowest row up, as in OBJ, or from its
-  /// highest down, as in glTF.
-  bool from_below = false;
-  /// Normals as colours: red to the right of the picture, green up in it, blue off the face; or, if
-  /// it is all grey, heights.
-  Picture relief = nullptr;
-  float relief_scale = 1;                     ///< How much steeper it is than the picture says.
-  std::optional<Gloss> gloss = std::nullopt;  ///< None: light shows its colour alone.
+  EncodedImage picture;         ///< Base colour texture, multiplied by `color`.
+  /// True if v = 0 is the bottom row of an image (as in OBJ), false if the top row (glTF).
+  bool v_from_bottom = false;
+  /// Normal map (red: right in the image, green: up, blue: outward), or a bump map if it is grey.
+  EncodedImage relief = nullptr;
+  float normal_scale = 1;                                 ///< Factor on the slopes of `relief`.
+  std::optional<MetallicRoughness> gloss = std::nullopt;  ///< None: diffuse colour only.
 };
 
 }  // namespace sunder

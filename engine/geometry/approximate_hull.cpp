@@ -13,14 +13,14 @@
 namespace sunder {
 namespace {
 
-/// Volumes below this part of the bounding cube's are rounding, not shape.
-constexpr double kNothing = 1e-13;
-/// Of those, a face is coplanar with a point that spans less with it.
-constexpr double kCoplanar = 1e-2;
+/// Volumes below this fraction of the bounding cube's count as rounding errors.
+constexpr double kVolumeRoundoff = 1e-13;
+/// A face is coplanar with a point if their tetrahedron is below this fraction of that volume.
+constexpr double kCoplanarFraction = 1e-2;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The first four vertices of algorithm 1, the last above the triangle of the others.
+/// Returns the first four vertices of algorithm 1; the last lies above the triangle of the others.
 std::array<std::uint32_t, 4> first_tetrahedron(std::span<const Vec3> points) {
   const auto a = farthest(points, [](const Vec3& p) { return p.x(); });
   const auto b = farthest(points, [&](const Vec3& p) { return (p - points[a]).squaredNorm(); });
@@ -34,7 +34,7 @@ std::array<std::uint32_t, 4> first_tetrahedron(std::span<const Vec3> points) {
   return {a, c, b, d};
 }
 
-/// The hull that algorithm 1 grows, and the points still outside it.
+/// The hull of algorithm 1 under construction, and the points outside it.
 class GrowingHull {
  public:
   explicit GrowingHull(std::span<const Vec3> points) : points_(points) {
@@ -42,15 +42,15 @@ class GrowingHull {
     for (const Vec3& p : points) box.extend(p);
     origin_ = box.center();
     const double size = box.extent().maxCoeff();
-    nothing_ = kNothing * size * size * size;
+    volume_tolerance_ = kVolumeRoundoff * size * size * size;
     const auto [a, b, c, d] = first_tetrahedron(points);
     hull_.vertices = {a, b, c, d};
     for (const Face& face :
-         {face_of(a, c, b), face_of(a, b, d), face_of(b, c, d), face_of(c, a, d)}) {
+         {make_face(a, c, b), make_face(a, b, d), make_face(b, c, d), make_face(c, a, d)}) {
       faces_.push_back(face);
     }
     hull_.volume_m3 = faces_[0].volume_to(points[d] - origin_) * -1;
-    if (!(hull_.volume_m3 > nothing_)) return;
+    if (!(hull_.volume_m3 > volume_tolerance_)) return;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
       const Vec3 p = points[i] - origin_;
       outside_.index.push_back(i);
@@ -60,35 +60,36 @@ class GrowingHull {
     }
     outside_.gain.assign(points.size(), 0);
     for (const Face& face : faces_) outside_.add(face, 1);
-    outside_.drop_below(nothing_);
+    outside_.remove_below(volume_tolerance_);
   }
 
-  bool flat() const { return !(hull_.volume_m3 > nothing_); }
-  bool done() const { return outside_.index.empty(); }
+  bool is_flat() const { return !(hull_.volume_m3 > volume_tolerance_); }
+  bool is_done() const { return outside_.index.empty(); }
 
-  /// Includes the point that adds most volume, or forgets it where rounding does not tell which
-  /// faces it sees: one in the plane of faces, of which it must see all or none.
+  /// Adds the point that adds most volume. Discards it instead if rounding errors make it unclear
+  /// which faces are visible from it, as for a point in the plane of several faces.
   void grow() {
     const auto most = std::max_element(outside_.gain.begin(), outside_.gain.end());
     const auto k = outside_.index[static_cast<std::size_t>(most - outside_.gain.begin())];
     const Vec3 apex = points_[k] - origin_;
-    const auto seen = std::stable_partition(faces_.begin(), faces_.end(), [&](const Face& face) {
-      return face.volume_to(apex) <= kCoplanar * nothing_;
+    const auto visible = std::stable_partition(faces_.begin(), faces_.end(), [&](const Face& face) {
+      return face.volume_to(apex) <= kCoplanarFraction * volume_tolerance_;
     });
-    const std::vector<Edge> border = border_of(std::span(seen, faces_.end()));
-    if (border.size() > static_cast<std::size_t>(faces_.end() - seen) + 2) {  // of a disc: no more
+    // The border of a disc of n triangles has at most n + 2 edges.
+    const std::vector<Edge> border = border_of(std::span(visible, faces_.end()));
+    if (border.size() > static_cast<std::size_t>(faces_.end() - visible) + 2) {
       *most = 0;
     } else {
       hull_.vertices.push_back(k);
       hull_.volume_m3 += *most;
-      for (auto face = seen; face != faces_.end(); ++face) outside_.add(*face, -1);
-      faces_.erase(seen, faces_.end());
+      for (auto face = visible; face != faces_.end(); ++face) outside_.add(*face, -1);
+      faces_.erase(visible, faces_.end());
       for (const auto& [from, to] : border) {
-        faces_.push_back(face_of(from, to, k));
+        faces_.push_back(make_face(from, to, k));
         outside_.add(faces_.back(), 1);
       }
     }
-    outside_.drop_below(nothing_);
+    outside_.remove_below(volume_tolerance_);
   }
   std::size_t vertex_count() const { return hull_.vertices.size(); }
 
@@ -103,17 +104,18 @@ class GrowingHull {
  private:
   struct Face {
     std::array<std::uint32_t, 3> vertices;
-    Vec3 normal;  ///< Its length is a third of the area, so that distances become volumes.
+    Vec3 normal;  ///< A third of the area vector, so that its dot products are volumes.
     double d;
+    /// Returns the signed volume of the tetrahedron with a point, positive above the face.
     double volume_to(const Vec3& p) const { return normal.dot(p) + d; }
   };
 
-  /// Points outside the hull with the volume that each would add (V_i of the paper).
+  /// Points outside the hull, and the volume that each would add (V_i of the paper).
   struct Outside {
     std::vector<std::uint32_t> index;
     std::vector<double> x, y, z, gain;
 
-    /// Adds (or takes away, by sign) the tetrahedra that a face spans with the points that see it.
+    /// Adds `sign` times the volume of the tetrahedra of a face and the points it is visible from.
     void add(const Face& face, double sign) {
       const double nx = face.normal.x(), ny = face.normal.y(), nz = face.normal.z(), d = face.d;
       for (std::size_t i = 0; i < x.size(); ++i) {
@@ -122,8 +124,8 @@ class GrowingHull {
       }
     }
 
-    /// Forgets what is inside the hull for good.
-    void drop_below(double least) {
+    /// Removes the points that would add `least` or less: they are inside the hull.
+    void remove_below(double least) {
       std::size_t kept = 0;
       for (std::size_t i = 0; i < gain.size(); ++i) {
         if (!(gain[i] > least)) continue;
@@ -138,7 +140,7 @@ class GrowingHull {
     }
   };
 
-  /// The edges between some faces and the others.
+  /// Returns the edges between the given faces and all others.
   static std::vector<Edge> border_of(std::span<const Face> faces) {
     std::vector<Edge> edges, border;
     for (const Face& face : faces) {
@@ -148,7 +150,7 @@ class GrowingHull {
     }
     std::sort(edges.begin(), edges.end());
     for (const auto& [from, to] : edges) {
-      // Between two of the faces, an edge is there both ways.
+      // An edge between two of the given faces occurs in both directions.
       if (!std::binary_search(edges.begin(), edges.end(), Edge(to, from))) {
         border.emplace_back(from, to);
       }
@@ -156,7 +158,7 @@ class GrowingHull {
     return border;
   }
 
-  Face face_of(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+  Face make_face(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
     const Vec3 a = points_[i] - origin_, b = points_[j] - origin_, c = points_[k] - origin_;
     const Vec3 normal = (b - a).cross(c - a) / 6;
     return {{i, j, k}, normal, -normal.dot(a)};
@@ -164,7 +166,7 @@ class GrowingHull {
 
   std::span<const Vec3> points_;
   Vec3 origin_;
-  double nothing_ = 0;
+  double volume_tolerance_ = 0;
   ApproximateHull hull_;
   std::vector<Face> faces_;
   Outside outside_;
@@ -207,9 +209,9 @@ std::optional<Fit> parse_fit(std::string_view name) {
   Fit fit{Fit::Kind::kHull};
   const char* const end = name.data() + name.size();
   const auto [rest, error] = std::from_chars(name.data() + kHull.size(), end, fit.vertex_count);
-  const bool good = error == std::errc() && rest == end && fit.vertex_count >= 4 &&
-                    fit.vertex_count <= kMostFitVertices;
-  return good ? std::optional(fit) : std::nullopt;
+  const bool is_valid = error == std::errc() && rest == end && fit.vertex_count >= 4 &&
+                        fit.vertex_count <= kMaxFitVertices;
+  return is_valid ? std::optional(fit) : std::nullopt;
 }
 
 std::span<const Vec3> dop_directions() {
@@ -220,8 +222,8 @@ std::span<const Vec3> dop_directions() {
 ApproximateHull approximate_hull(std::span<const Vec3> points, std::size_t vertex_count) {
   if (points.size() < 4) return {};
   GrowingHull hull(points);
-  if (hull.flat()) return {};
-  while (hull.vertex_count() < vertex_count && !hull.done()) hull.grow();
+  if (hull.is_flat()) return {};
+  while (hull.vertex_count() < vertex_count && !hull.is_done()) hull.grow();
   return std::move(hull).result();
 }
 
@@ -249,7 +251,7 @@ std::vector<Plane> touching_planes(std::span<const Vec3> points, std::span<const
       most = std::max(most, at);
     }
     planes.push_back({direction, -most});
-    if (i + 1 < directions.size() && directions[i + 1] == -direction) {  // as those of dops do
+    if (i + 1 < directions.size() && directions[i + 1] == -direction) {  // as in dop_directions()
       planes.push_back({directions[++i], least});
     }
   }

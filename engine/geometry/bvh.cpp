@@ -1,6 +1,6 @@
-// Building splits along the longest axis of the boxes' centres at the cheapest of kBins planes, and
-// in half where all centres coincide. Nodes lie depth first, each knowing where its subtree ends,
-// so a query is one loop without a stack.
+// A node is split across the longest axis of the boxes' centres, at the cheapest of the planes
+// between kBins bins, or in half if all centres coincide. Nodes are stored in depth-first order
+// with the end of their subtree, so a query is a loop without a stack.
 #include "engine/geometry/bvh.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace sunder {
 namespace {
 
 constexpr std::size_t kBins = 12;
-constexpr std::size_t kLeafItems = 4;
+constexpr std::size_t kMaxLeafItems = 4;
 
 double half_area(const Box& box) {
   if (box.empty()) return 0;
@@ -21,7 +21,7 @@ double half_area(const Box& box) {
   return e.x() * e.y() + e.y() * e.z() + e.z() * e.x();
 }
 
-/// Where boxes fall when an axis is cut into kBins.
+/// Bins of equal width along the longest axis of the boxes' centres.
 struct Bins {
   int axis = 0;
   double start = 0, scale = 0;
@@ -32,23 +32,23 @@ struct Bins {
     start = centers.min[axis];
     scale = extent[axis] > 0 ? static_cast<double>(kBins) / extent[axis] : 0;
   }
-  std::size_t of(const Box& box) const {
+  std::size_t bin_of(const Box& box) const {
     const double bin = (box.center()[axis] - start) * scale;
     return std::min(kBins - 1, static_cast<std::size_t>(std::max(bin, 0.0)));
   }
 };
 
-/// The bin that starts the right half of the cheapest split, 0 if there is none.
+/// Returns the first bin of the right half of the cheapest split; 0 if all centres are in one bin.
 std::size_t cheapest_split(std::span<const Box> boxes, std::span<const std::uint32_t> items,
                            const Bins& bins) {
   std::array<Box, kBins> box;
   std::array<std::size_t, kBins> count{};
   for (const std::uint32_t item : items) {
-    const std::size_t bin = bins.of(boxes[item]);
+    const std::size_t bin = bins.bin_of(boxes[item]);
     box[bin].extend(boxes[item]);
     ++count[bin];
   }
-  std::array<double, kBins> left_cost{};  // of the bins below each
+  std::array<double, kBins> left_cost{};  // cost of the bins below each bin
   Box left;
   std::size_t left_count = 0;
   for (std::size_t b = 0; b < kBins; ++b) {
@@ -72,15 +72,16 @@ std::size_t cheapest_split(std::span<const Box> boxes, std::span<const std::uint
   return best;
 }
 
-/// Reorders `items` into two parts and returns the size of the first (neither is empty).
+/// Reorders `items` into two non-empty parts and returns the size of the first.
 std::size_t split(std::span<const Box> boxes, std::span<std::uint32_t> items) {
   Box centers;
   for (const std::uint32_t item : items) centers.extend(boxes[item].center());
   const Bins bins(centers);
   const std::size_t bin = cheapest_split(boxes, items, bins);
   if (bin == 0) return items.size() / 2;
-  const auto middle = std::stable_partition(
-      items.begin(), items.end(), [&](std::uint32_t item) { return bins.of(boxes[item]) < bin; });
+  const auto middle = std::stable_partition(items.begin(), items.end(), [&](std::uint32_t item) {
+    return bins.bin_of(boxes[item]) < bin;
+  });
   return static_cast<std::size_t>(middle - items.begin());
 }
 
@@ -99,9 +100,9 @@ void Bvh::build(std::span<const Box> boxes, std::size_t first, std::size_t count
   const auto items = std::span(items_).subspan(first, count);
   Node node{.box = {}, .first = static_cast<std::uint32_t>(first), .count = 0, .next = 0};
   for (const std::uint32_t item : items) node.box.extend(boxes[item]);
-  if (count <= kLeafItems) node.count = static_cast<std::uint32_t>(count);
+  if (count <= kMaxLeafItems) node.count = static_cast<std::uint32_t>(count);
   nodes_.push_back(node);
-  if (count > kLeafItems) {
+  if (count > kMaxLeafItems) {
     const std::size_t left = split(boxes, items);
     build(boxes, first, left);
     build(boxes, first + left, count - left);

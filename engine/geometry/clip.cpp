@@ -1,10 +1,10 @@
-// One pass over the faces: corners that stay are renumbered, edges that change side get one vertex
-// each, and every edge this leaves without an opposite is, reversed, an edge of the cap. The signs
-// of the vertices decide all of it.
+// One pass over the faces renumbers the corners that remain and adds a vertex to each edge that
+// changes side; each edge without an opposite is then, reversed, an edge of the cap. All decisions
+// depend on the sides of the vertices only (docs/decisions/005-robust-clipping.md).
 //
-// Vertices on the plane are reused. Where rounding has left slivers about as thin as the tolerance,
-// that may fail to give one sphere; then the cut is made again with no vertex on the plane, which
-// always closes: each new vertex has one cap edge in and one out.
+// The first attempt reuses vertices on the plane. Where the solid is about as thin as the
+// tolerance, the result may not be a sphere; then the cut is repeated without vertices on the
+// plane, which always closes: each new vertex has one incoming and one outgoing cap edge.
 #include "engine/geometry/clip.h"
 
 #include <algorithm>
@@ -19,22 +19,22 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// The sides of a plane, as flags so that one | tells what a face has.
+/// The sides of a plane, as flags, so that the sides of a face's corners combine by |.
 enum Side : std::uint8_t { kIn = 1, kOn = 2, kOut = 4 };
 
-/// A corner of a kept face; kOn and kCrossing lie on the plane.
+/// Origin of a corner of a kept face. kOn (old vertex) and kCrossing (new) lie on the plane.
 enum class Place { kIn, kOn, kCrossing };
 struct Corner {
   std::uint32_t vertex = kNone;
   Place place = Place::kIn;
 };
 
-/// 2 for every part of a closed surface.
+/// Returns V − E + F, which is 2 for each component of a closed surface.
 std::ptrdiff_t euler_characteristic(const ConvexPolyhedron& convex) {
   return std::ssize(convex.vertices) + std::ssize(convex.faces) - std::ssize(convex.corners) / 2;
 }
 
-/// Six times the volume between a face and a point.
+/// Returns six times the signed volume of the cone from a face to a point.
 double cone_volume6(const ConvexPolyhedron& convex, std::size_t face, const Vec3& apex) {
   const auto corners = convex.face_corners(face);
   const Vec3 a = convex.vertices[corners[0]] - apex;
@@ -46,7 +46,7 @@ double cone_volume6(const ConvexPolyhedron& convex, std::size_t face, const Vec3
   return sum;
 }
 
-/// Of several closed parts, all but one slivers that rounding cut off, keeps the largest.
+/// Keeps the largest of several closed components; the others are slivers due to rounding errors.
 void keep_largest_part(ConvexPolyhedron& solid) {
   DisjointSets parts(solid.vertices.size());
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
@@ -82,17 +82,17 @@ void keep_largest_part(ConvexPolyhedron& solid) {
   solid = std::move(kept);
 }
 
-/// One attempt at a cut. Vertices of the result are numbered: inside ones first, in their old
-/// order, then those on the plane as faces meet them.
+/// One attempt at a cut. In the result the inside vertices come first, in their old order, then
+/// those on the plane, in the order in which faces reach them.
 class Cut {
  public:
   Cut(const ConvexPolyhedron& convex, ConvexPolyhedron& result, ClipScratch& scratch)
       : convex_(convex), result_(result), scratch_(scratch) {}
 
-  /// Vertices within `tolerance` are on the plane; false if that did not give one sphere.
-  bool reusing_vertices(double tolerance, const Plane& plane, PlaneId id);
-  /// Only signs count, and `tie` is the side of zero; closed, if perhaps in several parts.
-  void strictly(Side tie, const Plane& plane, PlaneId id);
+  /// Takes vertices within `tolerance` as on the plane. Returns false if the result is no sphere.
+  bool cut_reusing_vertices(double tolerance, const Plane& plane, PlaneId id);
+  /// Takes distance 0 as on `side_of_zero`. The result is closed, possibly in several components.
+  void cut_strictly(Side side_of_zero, const Plane& plane, PlaneId id);
 
  private:
   template <class SideOf>
@@ -115,10 +115,10 @@ class Cut {
   std::uint32_t vertex_count_ = 0;
   std::uint32_t corner_count_ = 0;
   std::uint32_t face_count_ = 0;
-  bool forked_ = false;  ///< Two cap edges leave one vertex.
+  bool forked_ = false;  ///< True if two cap edges begin at one vertex.
 };
 
-bool Cut::reusing_vertices(double tolerance, const Plane& plane, PlaneId id) {
+bool Cut::cut_reusing_vertices(double tolerance, const Plane& plane, PlaneId id) {
   place_vertices([&](double distance) {
     return distance > tolerance ? kOut : distance < -tolerance ? kIn : kOn;
   });
@@ -127,16 +127,18 @@ bool Cut::reusing_vertices(double tolerance, const Plane& plane, PlaneId id) {
   return !forked_ && add_caps(plane, id) && euler_characteristic(result_) == 2;
 }
 
-void Cut::strictly(Side tie, const Plane& plane, PlaneId id) {
-  place_vertices([&](double distance) { return distance > 0 ? kOut : distance < 0 ? kIn : tie; });
+void Cut::cut_strictly(Side side_of_zero, const Plane& plane, PlaneId id) {
+  place_vertices([&](double distance) {
+    return distance > 0 ? kOut : distance < 0 ? kIn : side_of_zero;
+  });
   cut_faces();
-  SUNDER_CHECK(!forked_ && add_caps(plane, id));  // or the convex was not closed
+  SUNDER_CHECK(!forked_ && add_caps(plane, id));  // fails if the convex was not closed
 }
 
 template <class SideOf>
 void Cut::place_vertices(const SideOf& side_of) {
   const std::size_t vertices = convex_.vertices.size(), corners = convex_.corners.size();
-  // Upper bounds: every edge cut, a corner of a face at most two of the result's, and the caps.
+  // Upper bounds: each edge is cut, each corner yields at most two corners, and the caps add more.
   result_.vertices.resize(vertices + corners / 2);
   result_.corners.resize(3 * corners);
   result_.corner_normals.resize(3 * corners);
@@ -201,7 +203,8 @@ void Cut::cut_face(const ConvexPolyhedron::Face& face) {
       const EdgeCrossing& cut = crossing(corner[inside], corner[outside]);
       const Vec3f& start = normal[cut.inside_first ? inside : outside];
       const Vec3f& end = normal[cut.inside_first ? outside : inside];
-      emit({cut.vertex, Place::kCrossing}, blend(start, end, cut.t, face.plane.normal));
+      emit({cut.vertex, Place::kCrossing},
+           interpolate_normal(start, end, cut.t, face.plane.normal));
     }
     if (side == kIn) emit({scratch_.new_of_old[corner[i]], Place::kIn}, normal[i]);
     if (side == kOn) emit({on_vertex(corner[i]), Place::kOn}, normal[i]);
@@ -231,7 +234,7 @@ std::uint32_t Cut::on_vertex(std::uint32_t old) {
 const EdgeCrossing& Cut::crossing(std::uint32_t inside, std::uint32_t outside) {
   const std::uint32_t known = scratch_.crossings.find(inside, outside);
   if (known != EdgeCrossings::kNone) return scratch_.crossings[known];
-  // From the end that comes first, so that whoever shares the edge gets the same bits.
+  // Interpolates from the lexicographically first end: the same bits for all who share the edge.
   const bool inside_first =
       lexicographically_less(convex_.vertices[inside], convex_.vertices[outside]);
   const std::uint32_t a = inside_first ? inside : outside, b = inside_first ? outside : inside;
@@ -243,8 +246,8 @@ const EdgeCrossing& Cut::crossing(std::uint32_t inside, std::uint32_t outside) {
       .crossings[scratch_.crossings.add(inside, outside, vertex_count_++, t, inside_first)];
 }
 
-/// Two corners in a row on the plane: an edge of the cap, unless a kept face lies beyond it. That
-/// can only be where both are old vertices.
+/// Adds the cap edge between two consecutive corners on the plane. An edge between two old vertices
+/// is added later, if no other kept face has it.
 void Cut::link(const Corner& from, const Corner& to) {
   if (from.place == Place::kOn && to.place == Place::kOn) {
     scratch_.on_edges.emplace_back(from.vertex, to.vertex);
@@ -269,8 +272,8 @@ void Cut::add_unmatched_on_edges() {
   }
 }
 
-/// One face a loop of cap edges; false if one does not close. A loop of two edges is none: the
-/// faces that left them meet there.
+/// Adds a face for each loop of cap edges. Returns false if a loop does not close. A loop of two
+/// edges gets no face: the faces of its edges meet there.
 bool Cut::add_caps(const Plane& plane, PlaneId id) {
   const Vec3f normal = plane.normal.cast<float>();
   for (std::uint32_t start = inside_count_; start < vertex_count_; ++start) {
@@ -306,16 +309,17 @@ PlaneSide clip(const ConvexPolyhedron& convex, const Plane& plane, PlaneId id, d
     highest = std::max(highest, distance);
   }
   const bool none_outside = highest <= tolerance_m, none_inside = lowest >= -tolerance_m;
-  const Side tie = id.value & 1 ? kOut : kIn;  // flips with the plane
+  const Side side_of_zero = id.value & 1 ? kOut : kIn;  // opposite for the flipped plane
   if (none_outside && none_inside) {
     const double balance = std::accumulate(scratch.distances.begin(), scratch.distances.end(), 0.0);
-    const bool inside = balance != 0 ? balance < 0 : tie == kIn;
+    const bool inside = balance != 0 ? balance < 0 : side_of_zero == kIn;
     return inside ? PlaneSide::kInside : PlaneSide::kOutside;
   }
   if (none_outside) return PlaneSide::kInside;
   if (none_inside) return PlaneSide::kOutside;
-  if (Cut(convex, result, scratch).reusing_vertices(tolerance_m, plane, id)) return PlaneSide::kCut;
-  Cut(convex, result, scratch).strictly(tie, plane, id);
+  if (Cut(convex, result, scratch).cut_reusing_vertices(tolerance_m, plane, id))
+    return PlaneSide::kCut;
+  Cut(convex, result, scratch).cut_strictly(side_of_zero, plane, id);
   if (euler_characteristic(result) != 2) keep_largest_part(result);
   return PlaneSide::kCut;
 }

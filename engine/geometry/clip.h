@@ -1,4 +1,4 @@
-// Cutting convex polyhedra by planes (paper 3.1).
+// Clipping of convex polyhedra by planes (paper 3.1).
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace sunder {
 
-/// Reused memory of clip(); one per thread.
+/// Scratch memory of clip(), for reuse by one thread.
 struct ClipScratch {
   std::vector<double> distances;
-  std::vector<std::uint8_t> sides;        ///< Per vertex.
-  std::vector<std::uint32_t> new_of_old;  ///< Per vertex.
+  std::vector<std::uint8_t> sides;        ///< Side of each vertex.
+  std::vector<std::uint32_t> new_of_old;  ///< New number of each vertex.
   EdgeCrossings crossings;
-  std::vector<std::uint32_t> cap_next;  ///< Per new vertex: the cap's edges.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> on_edges;  ///< Kept, both ends on.
+  std::vector<std::uint32_t> cap_next;  ///< Next vertex around the cap, for each new vertex.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> on_edges;  ///< Kept edges on the plane.
 };
 
-/// Keeps the part of a closed `convex` with plane.distance <= 0 in `result` (unspecified unless the
-/// answer is kCut). The new face, the last, gets `id` and kInterior (where a sliver as thin as the
-/// rounding is cut, it may be several faces or none). Topology follows from the vertices'
-/// signs alone (distances within `tolerance_m` of the plane count as on it), so the result is
-/// closed whatever the rounding; normals are interpolated along cut edges. A cut edge gives the
-/// same bits from either side of the plane and in every convex that has the edge. A convex wholly
-/// within tolerance is inside for exactly one of (plane, id) and (plane.flipped(), id.opposite()).
+/// Clips a closed convex by a plane: `result` becomes the part with plane.distance <= 0 if the
+/// return value is kCut, and is unspecified otherwise. The cap is the last face and gets `id` and
+/// kInterior; it may be several faces or none where the cut part is as thin as rounding errors.
+/// Topology depends only on the vertices' signed distances (those within `tolerance_m` count as on
+/// the plane), so the result is closed whatever the rounding. Normals are interpolated along cut
+/// edges. The new vertex of an edge has the same bits in both parts and in all convexes that share
+/// the edge. A convex within tolerance of the plane is inside for exactly one of (plane, id) and
+/// (plane.flipped(), id.opposite()).
 PlaneSide clip(const ConvexPolyhedron& convex, const Plane& plane, PlaneId id, double tolerance_m,
                ConvexPolyhedron& result, ClipScratch& scratch);
 

@@ -1,8 +1,8 @@
-// Every vertex is inside or outside, none on the plane. An edge that changes side gets one vertex.
-// Where a face's contours leave the inside, the k-th place along the cut line is joined to the k-th
-// place where they come back: for a valid polygon that is the even-odd rule, and whatever rounding
-// did to it, each crossing still has one way in and one way out. So contours close, and the joins,
-// reversed, close to the contours of the cap.
+// Every vertex is inside or outside, none is on the plane, and each edge that changes side gets one
+// vertex. In each face, the k-th crossing along the cut line where contours leave the inside is
+// joined to the k-th where they return. For a valid polygon this is the even-odd rule; with any
+// rounding errors each crossing still has one edge in and one edge out, so all contours close, and
+// the joining edges, reversed, form the closed contours of the cap.
 #include "engine/geometry/clip_mesh.h"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ MeshCut::Sides MeshCut::sides_of(const PolygonMesh::Face& face) const {
   return all ? Sides::kOutside : any ? Sides::kBoth : Sides::kInside;
 }
 
-/// Copies faces [first, end), all inside: most of a large mesh, so in bulk.
+/// Copies faces [first, end), all inside, in bulk: they are most of a large mesh.
 void MeshCut::keep_faces(std::size_t first, std::size_t end) {
   const PolygonMesh::Face &from = mesh_.faces[first], &to = mesh_.faces[end - 1];
   const std::uint32_t first_contour = from.first_contour;
@@ -171,8 +171,8 @@ std::uint32_t MeshCut::end_contour(std::uint32_t first_corner) {
   return count;
 }
 
-/// Appends the runs of a contour that has both sides; `start` is where the side of its first
-/// corner ends.
+/// Appends the runs of a contour with corners on both sides. `start` is its first corner that is on
+/// the other side than corner 0.
 void MeshCut::find_runs(std::uint32_t contour, std::uint32_t start) {
   const auto corners = mesh_.contour_corners(contour);
   const auto n = static_cast<std::uint32_t>(corners.size());
@@ -187,14 +187,14 @@ void MeshCut::find_runs(std::uint32_t contour, std::uint32_t start) {
   }
 }
 
-/// Decides, for each run of a face, which run the cut leads on to.
+/// Sets the run that follows each run of a face along the cut line, and the edges of the cap.
 void MeshCut::join_runs(const Vec3& face_normal) {
   auto& runs = scratch_.runs;
   const auto n = static_cast<std::uint32_t>(runs.size());
   if (n == 1) {
-    runs[0].after = 0;
+    runs[0].next = 0;
   } else {
-    // Along the cut line with the inside on the left, ways out and ways back in alternate.
+    // Exits and entries alternate along the cut line.
     const Vec3 line = face_normal.cross(plane_.normal);
     const auto sort_along = [&](std::uint32_t Run::*end) {
       scratch_.along.clear();
@@ -209,19 +209,19 @@ void MeshCut::join_runs(const Vec3& face_normal) {
     for (const auto& [place, run] : scratch_.along) scratch_.entry_order.push_back(run);
     sort_along(&Run::exit);
     for (std::uint32_t k = 0; k < n; ++k) {
-      runs[scratch_.along[k].second].after = scratch_.entry_order[k];
+      runs[scratch_.along[k].second].next = scratch_.entry_order[k];
     }
   }
-  for (const Run& run : runs) scratch_.cap_next[runs[run.after].entry] = run.exit;
+  for (const Run& run : runs) scratch_.cap_next[runs[run.next].entry] = run.exit;
 }
 
 void MeshCut::add_joined_contours(const PolygonMesh::Face& face) {
   auto& runs = scratch_.runs;
   for (Run& start : runs) {
     const auto first = static_cast<std::uint32_t>(result_.corners.size());
-    for (Run* run = &start; run->count > 0; run = &runs[run->after]) {
+    for (Run* run = &start; run->count > 0; run = &runs[run->next]) {
       add_run(*run, face);
-      run->count = 0;  // taken
+      run->count = 0;  // marks the run as used
     }
     if (result_.corners.size() > first) end_contour(first);
   }
@@ -243,8 +243,8 @@ void MeshCut::add_crossing_corner(const PolygonMesh::Face& face, std::uint32_t c
   const std::uint32_t a = cut.inside_first ? inside : outside;
   const std::uint32_t b = cut.inside_first ? outside : inside;
   result_.corners.push_back(cut.vertex);
-  result_.corner_normals.push_back(
-      blend(mesh_.corner_normals[a], mesh_.corner_normals[b], cut.t, face.plane.normal));
+  result_.corner_normals.push_back(interpolate_normal(
+      mesh_.corner_normals[a], mesh_.corner_normals[b], cut.t, face.plane.normal));
   if (mesh_.corner_uvs.empty()) return;
   const Vec2f start = mesh_.corner_uvs[a], end = mesh_.corner_uvs[b];
   result_.corner_uvs.push_back(start + static_cast<float>(cut.t) * (end - start));
@@ -256,7 +256,7 @@ std::uint32_t MeshCut::crossing(std::uint32_t inside, std::uint32_t outside) {
   const bool inside_first = lexicographically_less(mesh_.vertices[inside], mesh_.vertices[outside]);
   const std::uint32_t a = inside_first ? inside : outside, b = inside_first ? outside : inside;
   const double distance_a = scratch_.distances[a], distance_b = scratch_.distances[b];
-  // An end within tolerance of the plane is where the edge is cut.
+  // An end within tolerance of the plane is the point of intersection.
   const double t = std::abs(distance_a) <= tolerance_   ? 0
                    : std::abs(distance_b) <= tolerance_ ? 1
                                                         : distance_a / (distance_a - distance_b);
@@ -280,7 +280,7 @@ void MeshCut::add_cap(PlaneId id) {
     if (result_.corners.size() - first > 2) {
       end_contour(first);
     } else {
-      result_.corners.resize(first);  // the two faces cut there meet in that edge
+      result_.corners.resize(first);  // two edges: the two cut faces share that edge
     }
   }
   cap.contour_count = static_cast<std::uint32_t>(result_.contours.size()) - cap.first_contour;

@@ -1,4 +1,4 @@
-// Cutting visual meshes: general polygons, watertight before and after (paper 3.3).
+// Clipping of watertight meshes of general polygons by planes (paper 3.3).
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,34 @@
 
 namespace sunder {
 
-/// Reused memory of clip(); one per thread.
+/// Scratch memory of clip(), for reuse by one thread.
 struct MeshClipScratch {
-  /// Corners in a row that stay, between the two edges where the contour crosses the plane.
+  /// A maximal sequence of inside corners of a contour, between two edges that cross the plane.
   struct Run {
     std::uint32_t contour;
-    std::uint32_t first, count;  ///< Corners of the contour, from `first` on, around.
-    std::uint32_t entry, exit;   ///< Crossings.
-    std::uint32_t after;         ///< The run that the cut leads on to.
+    std::uint32_t first, count;  ///< First corner within the contour, number of corners (cyclic).
+    std::uint32_t entry, exit;   ///< Numbers of the crossings before and after the run.
+    std::uint32_t next;          ///< The run that follows along the cut line.
   };
   std::vector<double> distances;
-  std::vector<std::uint8_t> outside;      ///< Per vertex.
-  std::vector<std::uint32_t> new_of_old;  ///< Per vertex.
+  std::vector<std::uint8_t> outside;      ///< 1 if outside, for each vertex.
+  std::vector<std::uint32_t> new_of_old;  ///< New number of each vertex.
   EdgeCrossings crossings;
-  std::vector<std::uint32_t> cap_next;                  ///< Per crossing: the cap's edges.
-  std::vector<Run> runs;                                ///< Of one face.
-  std::vector<std::pair<double, std::uint32_t>> along;  ///< Places of crossings on the cut line.
-  std::vector<std::uint32_t> entry_order;
+  std::vector<std::uint32_t> cap_next;  ///< Next crossing around the cap, for each crossing.
+  std::vector<Run> runs;                ///< Runs of the current face.
+  std::vector<std::pair<double, std::uint32_t>> along;  ///< Position on the cut line and run.
+  std::vector<std::uint32_t> entry_order;               ///< Runs by the position of their entry.
 };
 
-/// Keeps the part of a watertight mesh with plane.distance <= 0 in `result` (unspecified unless the
-/// answer is kCut): watertight, whatever the rounding, because topology follows from the vertices'
-/// sides alone. Vertices within `tolerance_m` of the plane are all inside for an even id and all
-/// outside for an odd one, so cuts by (plane, id) and (plane.flipped(), id.opposite()) make up the
-/// whole and share their vertices bit for bit. The cap is one face, the last, of any number of
-/// contours, with `id`, kInterior and texture coordinates in metres of the rest frame; normals and
-/// texture coordinates are interpolated along cut edges.
+/// Clips a watertight mesh by a plane: `result` becomes the part with plane.distance <= 0 if the
+/// return value is kCut, and is unspecified otherwise. It is watertight whatever the rounding,
+/// because topology depends only on the sides of the vertices. Vertices within `tolerance_m` of the
+/// plane are inside for an even id and outside for an odd id, so the parts cut by (plane, id) and
+/// (plane.flipped(), id.opposite()) are complementary and share vertices bit for bit.
+///
+/// The cap is the last face; it has any number of contours, `id`, kInterior, and texture
+/// coordinates in metres of the rest frame. Normals and texture coordinates are interpolated along
+/// cut edges.
 PlaneSide clip(const PolygonMesh& mesh, const Plane& plane, PlaneId id, double tolerance_m,
                PolygonMesh& result, MeshClipScratch& scratch);
 

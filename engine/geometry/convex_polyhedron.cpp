@@ -12,8 +12,8 @@
 namespace sunder {
 namespace {
 
-/// Shades the n sides of a prism, its faces 2.., as one round surface.
-void round_sides(ConvexPolyhedron& prism, std::uint32_t n) {
+/// Shades the n sides of a prism, faces 2 to n + 1, as one round surface.
+void smooth_sides(ConvexPolyhedron& prism, std::uint32_t n) {
   for (std::uint32_t i = 0; i < n; ++i) {
     const ConvexPolyhedron::Face& here = prism.faces[2 + i];
     const ConvexPolyhedron::Face& next = prism.faces[2 + (i + 1) % n];
@@ -51,7 +51,7 @@ double face_area(const ConvexPolyhedron& convex, std::size_t face) {
 
 MassProperties mass_properties(const ConvexPolyhedron& convex) {
   if (convex.empty()) return {};
-  // About a vertex, all tetrahedra have one sign.
+  // With a vertex as origin, all tetrahedra have non-negative volume.
   const Vec3 origin = convex.vertices[convex.corners[0]];
   Moments moments(origin);
   for (const ConvexPolyhedron::Face& face : convex.faces) {
@@ -71,14 +71,14 @@ ConvexPolyhedron make_box(const Vec3& min, const Vec3& max) {
   if (!(min.array() < max.array()).all() || !min.allFinite() || !max.allFinite())
     throw InputError("a box ends before it begins, or nowhere; expected finite min < max");
   ConvexPolyhedron box;
-  for (int i = 0; i < 8; ++i) {  // bit k of the index: max along axis k
+  for (int i = 0; i < 8; ++i) {  // bit k of the index is set for max along axis k
     box.vertices.emplace_back(i & 1 ? max.x() : min.x(), i & 2 ? max.y() : min.y(),
                               i & 4 ? max.z() : min.z());
   }
   constexpr std::uint32_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                           {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& corners : kFaces) add_face(box, corners);
-  for (std::size_t axis = 0; axis < 3; ++axis) {  // -x +x -y +y -z +z: exactly
+  for (std::size_t axis = 0; axis < 3; ++axis) {  // exact planes: -x +x -y +y -z +z
     const Vec3 out = Vec3::Unit(static_cast<Eigen::Index>(axis));
     box.faces[2 * axis].plane = Plane::through(min, -out);
     box.faces[2 * axis + 1].plane = Plane::through(max, out);
@@ -106,7 +106,7 @@ ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, dou
     const std::uint32_t next = (i + 1) % n;
     add_face(prism, std::array{i, next, n + next, n + i});
   }
-  if (smooth) round_sides(prism, n);
+  if (smooth) smooth_sides(prism, n);
   return prism;
 }
 

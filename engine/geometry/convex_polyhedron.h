@@ -1,7 +1,7 @@
-// Convex polyhedra: polygons on named planes, with one normal per corner for shading (paper 3.1).
+// Convex polyhedra: polygons on identified planes, with shading normals for corners (paper 3.1).
 //
-// Read first: ConvexPolyhedron, then clip() (clip.h). Everything is in the rest frame R of the
-// solid that the convex was cut from, and stays there through every generation of fracture.
+// Begin with ConvexPolyhedron, then clip() (clip.h). All coordinates are in the rest frame R of the
+// original solid, also after any number of fractures.
 #pragma once
 
 #include <compare>
@@ -13,22 +13,23 @@
 
 namespace sunder {
 
-/// The half-space n·x + d <= 0; the normal has unit length and points out of it.
+/// The half-space n·x + d <= 0. The normal has unit length and points out of the half-space.
 struct Plane {
   Vec3 normal = Vec3::UnitY();
   double d = 0;
 
-  /// Signed, in metres: positive outside.
+  /// Returns the signed distance in metres, positive outside.
   double distance(const Vec3& point) const { return normal.dot(point) + d; }
-  /// The other half-space.
+  /// Returns the complementary half-space.
   Plane flipped() const { return {-normal, -d}; }
+  /// Returns the half-space whose plane contains `point`.
   static Plane through(const Vec3& point, const Vec3& unit_normal) {
     return {unit_normal, -unit_normal.dot(point)};
   }
 };
 
-/// Names one side of a plane within a compound's lineage: faces a and b lie in one plane with
-/// opposite normals iff a == b.opposite(). Zero is "not named yet".
+/// Identifies one side of a plane in a compound and its pieces: faces a and b lie in one plane with
+/// opposite normals exactly if a == b.opposite(). Zero means none.
 struct PlaneId {
   std::uint64_t value = 0;
 
@@ -37,28 +38,29 @@ struct PlaneId {
   constexpr auto operator<=>(const PlaneId&) const = default;
 };
 
-/// Where a solid lies relative to a plane.
+/// Position of a solid relative to a plane.
 enum class PlaneSide { kInside, kOutside, kCut };
 
-/// Of a solid of density 1: multiply volume and second moment by the density for mass and inertia.
+/// Mass properties for density 1; mass and inertia are proportional to the density.
 struct MassProperties {
   double volume_m3 = 0;
   Vec3 centroid = Vec3::Zero();
-  /// ∫ r rᵀ dV about the centroid (symmetric, m⁵); inertia = trace(S)·I − S.
+  /// S = ∫ r rᵀ dV about the centroid (symmetric, in m⁵).
   Mat3 second_moment = Mat3::Zero();
 
+  /// Returns the inertia tensor for density 1, trace(S)·I − S.
   Mat3 inertia() const { return second_moment.trace() * Mat3::Identity() - second_moment; }
 };
 
-/// The union of two solids that do not overlap (parallel-axis theorem).
+/// Returns the properties of the union of two disjoint solids (parallel-axis theorem).
 MassProperties operator+(const MassProperties& a, const MassProperties& b);
 
-/// What a face looks like: part of the original surface, or made by a break.
+/// Origin of a face: the original surface, or the interior exposed by a break.
 enum class FaceKind : std::uint8_t { kSurface, kInterior };
 
-/// A closed convex solid. Faces are polygons, counter-clockwise seen from outside; every directed
-/// edge has its opposite exactly once. Corners of face f are
-/// [faces[f].first_corner, +corner_count) of `corners` and `corner_normals`.
+/// A closed convex polyhedron. Faces are polygons, counter-clockwise seen from outside; every
+/// directed edge has its opposite exactly once. The corners of face f are corner_count elements of
+/// `corners` and `corner_normals` from first_corner on.
 struct ConvexPolyhedron {
   struct Face {
     Plane plane;
@@ -79,32 +81,33 @@ struct ConvexPolyhedron {
   }
 };
 
-/// The least box around it.
+/// Returns the bounding box.
 Box bounds(const ConvexPolyhedron& convex);
-/// Of the solid; all zero if it is empty.
+/// Returns the mass properties for density 1; all zero if the convex is empty.
 MassProperties mass_properties(const ConvexPolyhedron& convex);
-/// In m².
+/// Returns the area of a face in m².
 double face_area(const ConvexPolyhedron& convex, std::size_t face);
 
-/// Appends a flat-shaded surface face on the plane that fits the corners best; no id.
+/// Appends a flat-shaded kSurface face without id, on the plane that fits the corners best.
 void add_face(ConvexPolyhedron& convex, std::span<const std::uint32_t> corners);
-/// An axis-aligned box, flat-shaded. Throws InputError unless min < max, both finite.
+/// Returns a flat-shaded axis-aligned box. Throws InputError unless min < max and both are finite.
 ConvexPolyhedron make_box(const Vec3& min, const Vec3& max);
-/// A convex polygon in the xz-plane (counter-clockwise seen from +y) swept from `bottom` to `top`
-/// along y; `smooth` shades the sides round (for columns). Throws InputError for anything else.
+/// Returns the prism over a convex polygon in the xz-plane, counter-clockwise seen from +y, from
+/// `bottom` to `top` along y. `smooth` shades the sides as a round surface (for columns). Throws
+/// InputError if the polygon has fewer than three corners or runs clockwise, or if bottom >= top.
 ConvexPolyhedron make_prism(std::span<const Vec2> polygon_xz, double bottom, double top,
                             bool smooth);
-/// The same solid moved rigidly; plane ids are kept.
+/// Returns the convex under a rigid transform; plane ids are kept.
 ConvexPolyhedron transformed(const ConvexPolyhedron& convex, const Pose& X_RQ);
 
-/// How a convex is fitted to what it encloses; approximate_hull.h does it.
+/// The method that fits a convex to the points it encloses (approximate_hull.h).
 struct Fit {
   enum class Kind : std::uint8_t { kAabb, k14Dop, k26Dop, kHull };
   Kind kind = Kind::k26Dop;
-  std::uint32_t vertex_count = 24;  ///< Of algorithm 1's hull, for kHull.
+  std::uint32_t vertex_count = 24;  ///< Number of vertices of the hull, for kHull.
 };
 
-/// Whether every directed edge has its opposite exactly once and V − E + F = 2.
+/// Returns true if every directed edge has its opposite exactly once and V − E + F = 2.
 bool is_closed(const ConvexPolyhedron& convex);
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// The area of polygons in space, with its direction.
+// Area vectors of polygons in space.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace sunder {
 
-/// Twice the area of a polygon times its normal (Newell), in m²: summed over the fan of its first
-/// corner. `corners` are indices of vertices, three at least.
+/// Returns twice the area of a polygon times its unit normal (Newell), in m², summed over the
+/// triangle fan of its first corner. `corners` are at least three indices of vertices.
 inline Vec3 double_area(std::span<const Vec3> vertices, std::span<const std::uint32_t> corners) {
   const Vec3& apex = vertices[corners[0]];
   Vec3 sum = Vec3::Zero();

@@ -1,4 +1,4 @@
-// The point that is most of something.
+// The extreme point by a measure.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace sunder {
 
-/// The index of the first point of greatest `measure(point)`; 0 if there is none.
+/// Returns the index of the first point of greatest `measure(point)`; 0 if there are no points.
 template <class Measure>
 std::uint32_t farthest(std::span<const Vec3> points, const Measure& measure) {
   std::uint32_t best = 0;

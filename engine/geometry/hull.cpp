@@ -1,7 +1,7 @@
-// The hull by its dual: a point p is the half-space p·y <= 1, the hull of points is the dual of
-// their half-spaces' intersection, and clip() intersects half-spaces closed whatever the rounding.
-// Coplanar points, collinear points and duplicates are planes through existing vertices, which
-// clip() handles exactly like any other case. The hull's corners are the given points themselves.
+// The hull is computed by duality: the dual of a point p is the half-space p·y <= 1, and the hull
+// of points is the dual of the intersection of their half-spaces, which clip() computes with closed
+// topology whatever the rounding. Coplanar, collinear and duplicate points become planes through
+// existing vertices, which clip() handles as any others. The hull's vertices are the given points.
 #include "engine/geometry/hull.h"
 
 #include <algorithm>
@@ -15,25 +15,24 @@
 namespace sunder {
 namespace {
 
-/// In the affine space where the starting tetrahedron is regular: there, flat and tiny solids are
-/// as easy as cubes. Noise just as large may fold a face over; then the next is tried.
+/// Tolerances of clip() in the affine space where the starting tetrahedron is regular, so that they
+/// suit flat and tiny solids too. If rounding errors of that size invert a face, the next is tried.
 constexpr double kDualTolerances[] = {1e-10, 1e-9, 1e-11, 1e-8, 1e-12};
-/// The least height of the starting tetrahedron over its length.
-constexpr double kFlat = 1e-9;
-/// Area, over its length and the solid's, of a face too small or thin to tell its plane.
-constexpr double kSliver = 1e-6;
+/// Least height of the starting tetrahedron, and of its base triangle, over its longest edge.
+constexpr double kMinHeightRatio = 1e-9;
+/// Least area of a face, over its length times the solid's, from which its normal is computed.
+constexpr double kMinFaceAreaRatio = 1e-6;
 
 using Tetrahedron = std::array<std::uint32_t, 4>;
 
-/// A regular tetrahedron whose dual is its own mirror image through the origin.
+/// Returns a regular tetrahedron whose dual is its mirror image through the origin.
 Eigen::Matrix<double, 3, 4> regular_tetrahedron() {
   Eigen::Matrix<double, 3, 4> r;
   r << 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1, 1;
   return r;
 }
 
-/// Four points that span about as much as any four, as left-handed as regular_tetrahedron(); none
-/// if the points lie in a plane.
+/// Returns four points that span a large tetrahedron, left-handed; none if all lie in a plane.
 std::optional<Tetrahedron> spanning_tetrahedron(std::span<const Vec3> points) {
   if (points.size() < 4) return std::nullopt;
   const std::uint32_t i = farthest(points, [&](const Vec3& p) { return (p - points[0]).norm(); });
@@ -42,15 +41,15 @@ std::optional<Tetrahedron> spanning_tetrahedron(std::span<const Vec3> points) {
   const Vec3 ab = points[j] - a;
   const std::uint32_t k = farthest(points, [&](const Vec3& p) { return ab.cross(p - a).norm(); });
   const Vec3 normal = ab.cross(points[k] - a);
-  if (!(normal.norm() > kFlat * ab.squaredNorm())) return std::nullopt;
+  if (!(normal.norm() > kMinHeightRatio * ab.squaredNorm())) return std::nullopt;
   const Vec3 up = normal.normalized();
   const std::uint32_t l = farthest(points, [&](const Vec3& p) { return std::abs(up.dot(p - a)); });
   const double height = up.dot(points[l] - a);
-  if (!(std::abs(height) > kFlat * ab.norm())) return std::nullopt;
+  if (!(std::abs(height) > kMinHeightRatio * ab.norm())) return std::nullopt;
   return height > 0 ? Tetrahedron{i, k, j, l} : Tetrahedron{i, j, k, l};
 }
 
-/// The linear part of the affine map that makes the tetrahedron regular.
+/// Returns the linear part of the affine map that makes the tetrahedron regular.
 Mat3 regularising_map(std::span<const Vec3> points, const Tetrahedron& start) {
   const Eigen::Matrix<double, 3, 4> r = regular_tetrahedron();
   Mat3 edges, regular_edges;
@@ -62,7 +61,7 @@ Mat3 regularising_map(std::span<const Vec3> points, const Tetrahedron& start) {
   return regular_edges * (edges / size).inverse() / size;
 }
 
-/// The dual of the starting tetrahedron. A face's id is the index of its point.
+/// Returns the dual of the starting tetrahedron. A face's id is the index of its point.
 ConvexPolyhedron starting_dual(const Tetrahedron& start) {
   const Eigen::Matrix<double, 3, 4> r = regular_tetrahedron();
   ConvexPolyhedron dual;
@@ -84,7 +83,7 @@ ConvexPolyhedron dual_of_hull(std::span<const Vec3> points, const Tetrahedron& s
   }
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
-  // Far points first: they leave little for the others to do.
+  // Far points come first: most of the others then do not cut the dual.
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double at_a = moved[a].squaredNorm(), at_b = moved[b].squaredNorm();
     return at_a != at_b ? at_a > at_b : a < b;
@@ -93,7 +92,8 @@ ConvexPolyhedron dual_of_hull(std::span<const Vec3> points, const Tetrahedron& s
   ClipScratch scratch;
   for (const std::uint32_t i : order) {
     const double distance = moved[i].norm();
-    if (distance * distance < 1.0 / 3) break;  // inside the starting tetrahedron, and so the rest
+    // This and all further points are inside the starting tetrahedron.
+    if (distance * distance < 1.0 / 3) break;
     const Plane plane{moved[i] / distance, -1 / distance};
     if (clip(dual, plane, {i}, tolerance, next, scratch) == PlaneSide::kCut) {
       std::swap(dual, next);
@@ -102,13 +102,13 @@ ConvexPolyhedron dual_of_hull(std::span<const Vec3> points, const Tetrahedron& s
   return dual;
 }
 
-/// A corner of the dual: `face` at `vertex`, between the edges to `next` and from `previous`.
-struct Fan {
+/// The corner of `face` of the dual at `vertex`, between the edges to `next` and from `previous`.
+struct DualCorner {
   std::uint32_t vertex, next, previous, face;
 };
 
-std::vector<Fan> fans(const ConvexPolyhedron& dual) {
-  std::vector<Fan> result;
+std::vector<DualCorner> dual_corners(const ConvexPolyhedron& dual) {
+  std::vector<DualCorner> result;
   for (std::uint32_t f = 0; f < dual.faces.size(); ++f) {
     const auto corners = dual.face_corners(f);
     for (std::size_t i = 0, n = corners.size(); i < n; ++i) {
@@ -116,13 +116,12 @@ std::vector<Fan> fans(const ConvexPolyhedron& dual) {
     }
   }
   std::stable_sort(result.begin(), result.end(),
-                   [](const Fan& a, const Fan& b) { return a.vertex < b.vertex; });
+                   [](const DualCorner& a, const DualCorner& b) { return a.vertex < b.vertex; });
   return result;
 }
 
-/// Gives a sliver, whose corners hardly tell a plane, the normal that the dual has for it. False if
-/// the face is folded over.
-bool settle_last_face(ConvexPolyhedron& hull, const Vec3& dual_normal, double size) {
+/// Gives the last face `dual_normal` if it is too thin. Returns false if the face is inverted.
+bool set_last_face_normal(ConvexPolyhedron& hull, const Vec3& dual_normal, double size) {
   ConvexPolyhedron::Face& face = hull.faces.back();
   const auto corners = hull.face_corners(hull.faces.size() - 1);
   const Vec3& first = hull.vertices[corners[0]];
@@ -130,7 +129,7 @@ bool settle_last_face(ConvexPolyhedron& hull, const Vec3& dual_normal, double si
   for (const std::uint32_t v : corners) {
     longest = std::max(longest, (hull.vertices[v] - first).norm());
   }
-  if (face_area(hull, hull.faces.size() - 1) > kSliver * longest * size) {
+  if (face_area(hull, hull.faces.size() - 1) > kMinFaceAreaRatio * longest * size) {
     return face.plane.normal.dot(dual_normal) > 0;
   }
   face.plane = Plane::through(first, dual_normal);
@@ -139,34 +138,35 @@ bool settle_last_face(ConvexPolyhedron& hull, const Vec3& dual_normal, double si
   return true;
 }
 
-/// Fills the hull; false if a face is folded over.
+/// Makes the hull from its dual. Returns false if a face is inverted.
 bool make_faces(std::span<const Vec3> points, const ConvexPolyhedron& dual, const Mat3& map,
                 double size, ConvexPolyhedron& hull) {
   hull = {};
   for (const ConvexPolyhedron::Face& face : dual.faces) {
     hull.vertices.push_back(points[face.id.value]);
   }
-  bool sound = true;
-  const std::vector<Fan> all = fans(dual);
+  bool is_valid = true;
+  const std::vector<DualCorner> all = dual_corners(dual);
   std::vector<std::uint32_t> corners;
-  for (auto begin = all.begin(); begin != all.end();) {  // a vertex of the dual: a face of the hull
-    const auto end =
-        std::find_if(begin, all.end(), [&](const Fan& fan) { return fan.vertex != begin->vertex; });
+  for (auto begin = all.begin(); begin != all.end();) {  // a vertex of the dual, a face of the hull
+    const auto end = std::find_if(
+        begin, all.end(), [&](const DualCorner& corner) { return corner.vertex != begin->vertex; });
     corners.clear();
-    auto fan = begin;
+    auto corner = begin;
     do {
-      corners.push_back(fan->face);
-      fan = std::find_if(begin, end, [&](const Fan& other) { return other.next == fan->previous; });
-    } while (fan != begin);
-    // A vertex within tolerance of the edge between two others makes an empty face of two corners.
+      corners.push_back(corner->face);
+      corner = std::find_if(
+          begin, end, [&](const DualCorner& other) { return other.next == corner->previous; });
+    } while (corner != begin);
+    // A vertex within tolerance of the edge between two others gives a face of two corners: none.
     if (corners.size() >= 3) {
       add_face(hull, corners);
       const Vec3 normal = (map.transpose() * dual.vertices[begin->vertex]).normalized();
-      sound = settle_last_face(hull, normal, size) && sound;
+      is_valid = set_last_face_normal(hull, normal, size) && is_valid;
     }
     begin = end;
   }
-  return sound;
+  return is_valid;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Convex hulls, for preparation.
+// Exact convex hulls of points.
 #pragma once
 
 #include <span>
@@ -7,9 +7,9 @@
 
 namespace sunder {
 
-/// The convex hull of points in general or degenerate position (coplanar faces merged),
-/// flat-shaded. Empty if the points span no volume. For preparation, not for run time: clipping
-/// knows the topology already.
+/// Returns the flat-shaded convex hull of points, which may be in degenerate position; coplanar
+/// faces are merged. Empty if the points span no volume. Meant for the preparation of scenes:
+/// breaks use clip(), which need not find the topology anew.
 ConvexPolyhedron make_hull(std::span<const Vec3> points);
 
 }  // namespace sunder

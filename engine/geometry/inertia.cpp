@@ -5,26 +5,27 @@
 namespace sunder {
 namespace {
 
-constexpr double kLeastMoment = 1e-4;  // of the largest
+/// Least principal moment over the largest.
+constexpr double kMinMomentRatio = 1e-4;
 
-PrincipalMoments unbounded_moments(const Mat3& inertia) {
+PrincipalMoments eigen_moments(const Mat3& inertia) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(0.5 * (inertia + inertia.transpose()));
   return {solver.eigenvectors(), solver.eigenvalues()};
 }
 
-Vec3 bounded(const Vec3& moments) { return moments.cwiseMax(kLeastMoment * moments.maxCoeff()); }
+Vec3 bounded(const Vec3& moments) { return moments.cwiseMax(kMinMomentRatio * moments.maxCoeff()); }
 
 }  // namespace
 
 PrincipalMoments principal_moments(const Mat3& inertia) {
-  const auto [axes, moments] = unbounded_moments(inertia);
+  const auto [axes, moments] = eigen_moments(inertia);
   return {axes, bounded(moments)};
 }
 
-Mat3 spinnable(const Mat3& inertia) {
-  const auto [axes, moments] = unbounded_moments(inertia);
-  const Vec3 enough = bounded(moments);
-  return enough == moments ? inertia : Mat3(axes * enough.asDiagonal() * axes.transpose());
+Mat3 bounded_inertia(const Mat3& inertia) {
+  const auto [axes, moments] = eigen_moments(inertia);
+  const Vec3 raised = bounded(moments);
+  return raised == moments ? inertia : Mat3(axes * raised.asDiagonal() * axes.transpose());
 }
 
 }  // namespace sunder

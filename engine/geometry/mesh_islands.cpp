@@ -1,5 +1,5 @@
-// Contours that share a vertex are of one shell. Then shells are joined: across faces, where one
-// contour is a hole in another, and through the solid, where one shell bounds a hollow in another.
+// Contours that share a vertex belong to one shell. Shells are then joined if a contour of one is a
+// hole in a contour of the other, or if one bounds a cavity in the other.
 #include "engine/geometry/mesh_islands.h"
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 namespace sunder {
 namespace {
 
-/// Whether a polygon's edge passes the point's height, on its far side in u: +1 upwards, -1 down.
-int passes(double from_u, double from_v, double to_u, double to_v) {
+/// Returns ±1 if an edge crosses the ray from 0 along +u with growing or falling v; 0 if not.
+int crossing_sign(double from_u, double from_v, double to_u, double to_v) {
   if ((from_v <= 0) == (to_v <= 0)) return 0;
   const double side = from_u * to_v - to_u * from_v;
   return from_v <= 0 ? (side > 0 ? 1 : 0) : (side < 0 ? -1 : 0);
 }
 
-/// Twice the area of a contour seen along its face's normal; negative for a hole.
+/// Returns twice the signed area of a contour about its face's normal; negative for a hole.
 double area_along(const PolygonMesh& mesh, std::uint32_t contour, const Vec3& normal) {
   return double_area(mesh.vertices, mesh.contour_corners(contour)).dot(normal);
 }
 
-/// Whether a point of a face's plane lies within a contour of the face.
+/// Returns true if a point of a face's plane lies within a contour of the face.
 bool surrounds(const PolygonMesh& mesh, std::uint32_t contour, const Vec3& normal,
                const Vec3& point) {
   int steepest;
@@ -34,14 +34,15 @@ bool surrounds(const PolygonMesh& mesh, std::uint32_t contour, const Vec3& norma
   for (std::size_t i = 0, before = corners.size() - 1; i < corners.size(); before = i++) {
     const Vec3 from = mesh.vertices[corners[before]] - point;
     const Vec3 to = mesh.vertices[corners[i]] - point;
-    turns += passes(from[u], from[v], to[u], to[v]);
+    turns += crossing_sign(from[u], from[v], to[u], to[v]);
   }
   return turns != 0;
 }
 
-/// How often the contours wind around a point: surfaces that a ray along x leaves by, less those
-/// that it enters by.
-int winding(const PolygonMesh& mesh, std::span<const std::uint32_t> contours, const Vec3& point) {
+/// Returns the winding number of contours around a point: the number of surfaces by which a ray
+/// along x leaves, less the number by which it enters.
+int winding_number(const PolygonMesh& mesh, std::span<const std::uint32_t> contours,
+                   const Vec3& point) {
   int sum = 0;
   for (const std::uint32_t contour : contours) {
     const auto corners = mesh.contour_corners(contour);
@@ -49,8 +50,9 @@ int winding(const PolygonMesh& mesh, std::span<const std::uint32_t> contours, co
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const Vec3 b = mesh.vertices[corners[i - 1]] - point;
       const Vec3 c = mesh.vertices[corners[i]] - point;
-      const int turns = passes(a.y(), a.z(), b.y(), b.z()) + passes(b.y(), b.z(), c.y(), c.z()) +
-                        passes(c.y(), c.z(), a.y(), a.z());
+      const int turns = crossing_sign(a.y(), a.z(), b.y(), b.z()) +
+                        crossing_sign(b.y(), b.z(), c.y(), c.z()) +
+                        crossing_sign(c.y(), c.z(), a.y(), a.z());
       if (turns != 0 && turns * a.dot(b.cross(c)) > 0) sum += turns;
     }
   }
@@ -71,7 +73,7 @@ double volume6(const PolygonMesh& mesh, std::span<const std::uint32_t> contours)
   return sum;
 }
 
-/// DisjointSets of contours that share vertices.
+/// Returns the sets of contours that share vertices.
 DisjointSets shells(const PolygonMesh& mesh) {
   DisjointSets sets(mesh.contours.size());
   constexpr std::uint32_t kNone = ~0u;
@@ -104,7 +106,7 @@ void join_holes(const PolygonMesh& mesh, const PolygonMesh::Face& face, Disjoint
   }
 }
 
-/// The contours of each set, by their first.
+/// Returns the contours of each set, in the order of their first contours.
 std::vector<std::vector<std::uint32_t>> members(DisjointSets& sets, std::size_t count) {
   std::vector<std::vector<std::uint32_t>> result;
   std::vector<std::size_t> index(count);
@@ -119,25 +121,25 @@ std::vector<std::vector<std::uint32_t>> members(DisjointSets& sets, std::size_t 
   return result;
 }
 
-/// Joins each shell that bounds a hollow with the smallest solid around it.
-void join_hollows(const PolygonMesh& mesh, DisjointSets& sets) {
+/// Joins each shell that bounds a cavity with the shell of the smallest solid around it.
+void join_cavities(const PolygonMesh& mesh, DisjointSets& sets) {
   const auto parts = members(sets, mesh.contours.size());
   std::vector<double> volume;
   for (const auto& part : parts) volume.push_back(volume6(mesh, part));
-  for (std::size_t hollow = 0; hollow < parts.size(); ++hollow) {
-    if (volume[hollow] >= 0) continue;
-    const Vec3& point = mesh.vertices[mesh.contour_corners(parts[hollow][0])[0]];
-    std::size_t around = hollow;
+  for (std::size_t cavity = 0; cavity < parts.size(); ++cavity) {
+    if (volume[cavity] >= 0) continue;
+    const Vec3& point = mesh.vertices[mesh.contour_corners(parts[cavity][0])[0]];
+    std::size_t around = cavity;
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      if (volume[p] <= 0 || winding(mesh, parts[p], point) <= 0) continue;
-      if (around == hollow || volume[p] < volume[around]) around = p;
+      if (volume[p] <= 0 || winding_number(mesh, parts[p], point) <= 0) continue;
+      if (around == cavity || volume[p] < volume[around]) around = p;
     }
-    sets.join(parts[hollow][0], parts[around][0]);
+    sets.join(parts[cavity][0], parts[around][0]);
   }
 }
 
-/// One mesh an island: contours go in order to their island's, and take their face with them.
-std::vector<PolygonMesh> separated(const PolygonMesh& mesh, DisjointSets& sets) {
+/// Returns a mesh for each set. Contours keep their order; sets may share a face.
+std::vector<PolygonMesh> extract_islands(const PolygonMesh& mesh, DisjointSets& sets) {
   constexpr std::uint32_t kNone = ~0u;
   std::vector<PolygonMesh> result;
   std::vector<std::size_t> island(mesh.contours.size());
@@ -181,14 +183,14 @@ std::vector<PolygonMesh> islands(PolygonMesh mesh) {
   std::vector<PolygonMesh> result;
   if (mesh.empty()) return result;
   DisjointSets sets = shells(mesh);
-  const auto in_parts = [&] { return members(sets, mesh.contours.size()).size() > 1; };
-  if (in_parts()) {
+  const auto has_several_sets = [&] { return members(sets, mesh.contours.size()).size() > 1; };
+  if (has_several_sets()) {
     for (const PolygonMesh::Face& face : mesh.faces) {
       if (face.contour_count > 1) join_holes(mesh, face, sets);
     }
-    join_hollows(mesh, sets);
+    join_cavities(mesh, sets);
   }
-  if (in_parts()) return separated(mesh, sets);
+  if (has_several_sets()) return extract_islands(mesh, sets);
   result.push_back(std::move(mesh));
   return result;
 }

@@ -1,4 +1,4 @@
-// The parts of a cut mesh that no longer hang together (paper 3.3, island detection).
+// Connected components of a cut mesh (paper 3.3, island detection).
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace sunder {
 
-/// The connected solids that a watertight mesh bounds, by their first contour. A face that several
-/// islands share is split between them, a hole goes with the contour around it, and a hollow with
-/// the solid around it. A mesh in one part comes back as it was.
+/// Returns the connected solids that a watertight mesh bounds, in the order of their first
+/// contours. The contours of a face may go to several islands. A hole goes with the contour around
+/// it, and a cavity with the solid around it. A mesh of one island is returned unchanged.
 std::vector<PolygonMesh> islands(PolygonMesh mesh);
 
 }  // namespace sunder

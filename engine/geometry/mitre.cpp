@@ -14,19 +14,19 @@
 namespace sunder {
 namespace {
 
-/// How far the farthest point of a convex lies beyond a plane.
+/// Returns the largest signed distance of a convex's vertices to a plane.
 double reach_beyond(const ConvexPolyhedron& convex, const Plane& plane) {
   double farthest = std::numeric_limits<double>::lowest();
   for (const Vec3& v : convex.vertices) farthest = std::max(farthest, plane.distance(v));
   return farthest;
 }
 
-/// Rounding may have made one plane several faces.
+/// Returns true if two faces have the same plane: rounding may have split a face of one plane.
 bool in_one_plane(const ConvexPolyhedron::Face& a, const ConvexPolyhedron::Face& b) {
   return a.plane.normal == b.plane.normal && a.plane.d == b.plane.d;
 }
 
-/// How far the deepest corner of a cell's front lies within a plane.
+/// Returns the depth inside a plane of the deepest corner of a cell's front.
 double depth_within(const ColumnCell& cell, const Plane& plane) {
   const auto& faces = cell.convex->faces;
   double deepest = std::numeric_limits<double>::lowest();
@@ -39,9 +39,9 @@ double depth_within(const ColumnCell& cell, const Plane& plane) {
   return deepest;
 }
 
-/// Name, kind and shading of a face that has been made again from its plane.
-void take_looks(const ConvexPolyhedron& from, std::size_t from_face, ConvexPolyhedron& to,
-                ConvexPolyhedron::Face& face) {
+/// Copies id, kind and nearest shading normals to a face that was made from an old face's plane.
+void copy_attributes(const ConvexPolyhedron& from, std::size_t from_face, ConvexPolyhedron& to,
+                     ConvexPolyhedron::Face& face) {
   const ConvexPolyhedron::Face& old = from.faces[from_face];
   face.id = old.id;
   face.kind = old.kind;
@@ -49,20 +49,21 @@ void take_looks(const ConvexPolyhedron& from, std::size_t from_face, ConvexPolyh
     const Vec3& here = to.vertices[to.corners[c]];
     double least = std::numeric_limits<double>::max();
     for (std::uint32_t k = old.first_corner; k < old.first_corner + old.corner_count; ++k) {
-      const double square = (from.vertices[from.corners[k]] - here).squaredNorm();
-      if (square >= least) continue;
-      least = square;
+      const double squared_distance = (from.vertices[from.corners[k]] - here).squaredNorm();
+      if (squared_distance >= least) continue;
+      least = squared_distance;
       to.corner_normals[c] = from.corner_normals[k];
     }
   }
 }
 
-/// Leaves in scratch.drawn the part of `box` within the planes of a cell but that of its front;
-/// false if rounding leaves nothing, as of a cell no larger than the tolerance.
-bool draw_out(const ColumnCell& cell, const Box& box, double tolerance_m, MitreScratch& scratch) {
+/// Sets scratch.extended to the part of `box` inside all planes of a cell except that of its front.
+/// Returns false if nothing is left, as for a cell no larger than the tolerance.
+bool extend_cell(const ColumnCell& cell, const Box& box, double tolerance_m,
+                 MitreScratch& scratch) {
   const ConvexPolyhedron& convex = *cell.convex;
-  ConvexPolyhedron& drawn = scratch.drawn;
-  drawn = make_box(box.min, box.max);
+  ConvexPolyhedron& extended = scratch.extended;
+  extended = make_box(box.min, box.max);
   for (std::size_t f = 0; f < convex.faces.size(); ++f) {
     const auto is_same = [&](const ConvexPolyhedron::Face& other) {
       return in_one_plane(other, convex.faces[f]);
@@ -71,14 +72,14 @@ bool draw_out(const ColumnCell& cell, const Box& box, double tolerance_m, MitreS
     if (is_same(convex.faces[cell.front]) || std::any_of(convex.faces.begin(), here, is_same)) {
       continue;
     }
-    const PlaneId number{2 * f + 2};  // until all are there; the box's own have none
+    const PlaneId number{2 * f + 2};  // provisional; faces of the box have none
     const Plane& plane = convex.faces[f].plane;
-    const PlaneSide side = clip(drawn, plane, number, tolerance_m, scratch.cut, scratch.clip);
+    const PlaneSide side = clip(extended, plane, number, tolerance_m, scratch.cut, scratch.clip);
     if (side == PlaneSide::kOutside) return false;
-    if (side == PlaneSide::kCut) std::swap(drawn, scratch.cut);
+    if (side == PlaneSide::kCut) std::swap(extended, scratch.cut);
   }
-  for (ConvexPolyhedron::Face& face : drawn.faces) {
-    if (!face.id.none()) take_looks(convex, face.id.value / 2 - 1, drawn, face);
+  for (ConvexPolyhedron::Face& face : extended.faces) {
+    if (!face.id.none()) copy_attributes(convex, face.id.value / 2 - 1, extended, face);
   }
   return true;
 }
@@ -89,33 +90,33 @@ bool lies_within(const ConvexPolyhedron& convex, const Box& box) {
   });
 }
 
-/// Room to draw a cell out in: edges up to 75° from the plane's normal do not reach its end.
-Box room_of(const ConvexPolyhedron& convex, double depth) {
+/// Returns a box that edges up to 75° from the plane's normal leave only beyond the plane.
+Box extension_bounds(const ConvexPolyhedron& convex, double depth) {
   Box box = bounds(convex);
   const double rounding = 1e-9 * box.max.cwiseMax(-box.min).norm();
-  const double margin = std::max(depth, 0.0) / kLeastCosine + box.extent().norm() + rounding;
+  const double margin = std::max(depth, 0.0) / kMinMitreCosine + box.extent().norm() + rounding;
   box.min.array() -= margin;
   box.max.array() += margin;
   return box;
 }
 
-/// What is left of one cell: kInside is all of it.
+/// Extends or clips one cell. Returns kInside, with `result` unspecified, if the cell stays whole.
 PlaneSide end_cell(const ColumnCell& cell, const Plane& midplane, PlaneId id, double tolerance_m,
                    ConvexPolyhedron& result, MitreScratch& scratch) {
-  const Box room = room_of(*cell.convex, depth_within(cell, midplane));
-  if (draw_out(cell, room, tolerance_m, scratch)) {
-    const PlaneSide side = clip(scratch.drawn, midplane, id, tolerance_m, result, scratch.clip);
+  const Box limits = extension_bounds(*cell.convex, depth_within(cell, midplane));
+  if (extend_cell(cell, limits, tolerance_m, scratch)) {
+    const PlaneSide side = clip(scratch.extended, midplane, id, tolerance_m, result, scratch.clip);
     if (side == PlaneSide::kOutside) return side;
-    if (side == PlaneSide::kInside) std::swap(result, scratch.drawn);
-    if (lies_within(result, room)) return PlaneSide::kCut;
+    if (side == PlaneSide::kInside) std::swap(result, scratch.extended);
+    if (lies_within(result, limits)) return PlaneSide::kCut;
   }
   return clip(*cell.convex, midplane, id, tolerance_m, result, scratch.clip);
 }
 
-/// A copy of a mesh whose caps of one name are moved, with walls where they passed.
-class DrawnMesh {
+/// A copy of a mesh whose caps with one id are extruded.
+class ExtrudedMesh {
  public:
-  DrawnMesh(const PolygonMesh& mesh, PlaneId front, const Vec3& by)
+  ExtrudedMesh(const PolygonMesh& mesh, PlaneId front, const Vec3& by)
       : old_(mesh), front_(front), by_(by), moved_(mesh.vertices.size(), kUnmoved) {
     mesh_.vertices = mesh.vertices;
     const std::size_t caps = first_cap(mesh);
@@ -183,11 +184,11 @@ class DrawnMesh {
   const PolygonMesh& old_;
   const PlaneId front_;
   const Vec3 by_;
-  std::vector<std::uint32_t> moved_;  ///< Per old vertex.
+  std::vector<std::uint32_t> moved_;  ///< Number of the moved copy of each old vertex.
   PolygonMesh mesh_;
 };
 
-/// How far the deepest corner of the caps named `front` lies within a plane.
+/// Returns the depth inside a plane of the deepest corner of the caps with the id `front`.
 double depth_within(const PolygonMesh& mesh, PlaneId front, const Plane& plane) {
   double deepest = std::numeric_limits<double>::lowest();
   for (std::size_t f = first_cap(mesh); f < mesh.faces.size(); ++f) {
@@ -206,7 +207,7 @@ double depth_within(const PolygonMesh& mesh, PlaneId front, const Plane& plane) 
 
 std::optional<Midplane> midplane(const SectionEnd& a, const SectionEnd& b, const Pose& X_AB) {
   const Vec3 twice = a.along - X_AB.rotation * b.along;
-  if (twice.norm() < 2 * kLeastCosine) return std::nullopt;
+  if (twice.norm() < 2 * kMinMitreCosine) return std::nullopt;
   const Vec3 normal = twice.normalized();
   const Vec3 point = 0.5 * (a.centroid + X_AB * b.centroid);
   const Pose X_BA = X_AB.inverse();
@@ -228,12 +229,12 @@ std::optional<std::size_t> mitre(std::span<const ColumnCell> column, const Plane
 
 PlaneSide mitre(const PolygonMesh& mesh, PlaneId front, const Vec3& along, const Plane& midplane,
                 PlaneId id, double tolerance_m, PolygonMesh& result, MeshClipScratch& scratch) {
-  const double steepness = along.dot(midplane.normal);
-  SUNDER_CHECK(steepness > 0);
+  const double cosine = along.dot(midplane.normal);
+  SUNDER_CHECK(cosine > 0);
   const double depth = depth_within(mesh, front, midplane);
-  const double margin = bounds(mesh).extent().norm();  // so that all of the caps are cut off
-  const Vec3 by = (std::max(depth, 0.0) + margin) / steepness * along;
-  return clip(DrawnMesh(mesh, front, by).mesh(), midplane, id, tolerance_m, result, scratch);
+  const double margin = bounds(mesh).extent().norm();  // all of the moved caps are cut off
+  const Vec3 by = (std::max(depth, 0.0) + margin) / cosine * along;
+  return clip(ExtrudedMesh(mesh, front, by).mesh(), midplane, id, tolerance_m, result, scratch);
 }
 
 }  // namespace sunder

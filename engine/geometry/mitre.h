@@ -1,6 +1,6 @@
-// Mitres: the two sides of a section that has bent end in the plane midway between them, as the
-// sides of a picture frame do. No gap and no overlap is left, and a plane through the section's
-// centroid takes from each side of constant cross-section what it gives to it.
+// Mitre joints at bent sections: the two sides of the section are extended or clipped to the plane
+// midway between them, without gap or overlap. Where the cross-section is constant and the plane
+// goes through the section's centroid, the volume of each side stays the same.
 #pragma once
 
 #include <cstddef>
@@ -15,57 +15,55 @@
 
 namespace sunder {
 
-/// cos 75°: of half the largest bend that a mitre is made of.
-inline constexpr double kLeastCosine = 0.25881904510252074;
+/// cos 75°, the least cosine of half the angle of a bend. Larger bends get no mitre.
+inline constexpr double kMinMitreCosine = 0.25881904510252074;
 
-/// Where one side of a section ends, in that side's rest frame.
+/// The end of one side of a section, in that side's rest frame.
 struct SectionEnd {
   Vec3 centroid;
-  /// Unit, out of the side: the way its side edges run. Where neither side has twisted, normals of
-  /// the section's faces give the same plane.
+  /// Unit direction of the side edges, outward; without twist, face normals give the same plane.
   Vec3 along;
 };
 
-/// A plane as two sides see it, each in its rest frame; each lies within its own. Once B has been
-/// carried into A's frame, a.flipped() is its plane, bit for bit.
+/// The plane midway between two sides, in the rest frame of each; each side lies inside its own
+/// half-space. In A's frame the half-space of B is a.flipped(), bit for bit.
 struct Midplane {
   Plane a, b;
 };
 
-/// The plane midway between two ends; B's rest frame has the pose X_AB in A's. Nothing where they
-/// are bent by more than 150°: mitres would run to a point.
+/// Returns the plane midway between two ends; X_AB is the pose of B's rest frame in A's. None if
+/// the bend is more than 150°, for which a mitre would be a spike.
 std::optional<Midplane> midplane(const SectionEnd& a, const SectionEnd& b, const Pose& X_AB);
 
-/// A convex of a column and its face towards the section.
+/// A convex of a column and the index of its face towards the section.
 struct ColumnCell {
   const ConvexPolyhedron* convex = nullptr;
   std::uint32_t front = 0;
 };
 
-/// Reused memory of mitre(); one per thread.
+/// Scratch memory of mitre(), for reuse by one thread.
 struct MitreScratch {
-  ConvexPolyhedron drawn, cut;
+  ConvexPolyhedron extended, cut;
   ClipScratch clip;
 };
 
-/// Ends a column, convexes one behind the other from the section on, in its side's midplane. The
-/// answer is the rearmost cell that the plane reaches: in its place comes `result`, which loses its
-/// front and is drawn out, or clipped, to the plane; cells before it are gone and those behind it
-/// stay as they are. So a column ends in one convex that has all its sides, ready to be bent again.
-/// Nothing where the plane leaves nothing of the column.
+/// Makes a column (convexes one behind the other, from the section on) end in its side's midplane.
+/// Returns the index of the rearmost cell that the plane reaches: the caller replaces this cell by
+/// `result` (the cell without its front face, extended or clipped to the plane), removes the cells
+/// before it and keeps those behind it. So the column ends in one convex with all of its side
+/// faces, and can be bent again. Returns none if the plane leaves nothing of the column.
 ///
-/// Faces keep planes, names and kinds bit for bit, and the shading of their nearest corners; the
-/// new one, the last, gets `id` as in clip(), whose tolerance this is. Corners follow from planes,
-/// so bends do not add up rounding. Where sides flare by so much that they meet the plane only far
-/// off, or never, the cell is clipped alone and keeps what is left of its front.
+/// Faces keep plane, id and kind bit for bit, and the shading normals of the nearest old corners.
+/// The new face is the last and gets `id`; id and tolerance are those of clip(). Corners are
+/// computed from planes, so rounding errors do not accumulate over bends. If the side faces diverge
+/// too far to meet the plane nearby, the cell is only clipped and keeps the rest of its front.
 std::optional<std::size_t> mitre(std::span<const ColumnCell> column, const Plane& midplane,
                                  PlaneId id, double tolerance_m, ConvexPolyhedron& result,
                                  MitreScratch& scratch);
 
-/// Ends the visual mesh of a column's last convex in the midplane. Its caps named `front` move
-/// `along` (unit, as given to midplane()) to beyond that plane, with flat walls of the original
-/// surface's kind where they passed, and clip() does the rest; its answers, `id` and tolerance
-/// these are. Watertight if the mesh is.
+/// Makes the visual mesh of a column's last convex end in the midplane: extrudes its caps with the
+/// id `front` by `along` (unit, as given to midplane()) to beyond the plane, with flat kSurface
+/// walls, and clips. Result, `id` and tolerance are those of clip(). Watertight if the mesh is.
 PlaneSide mitre(const PolygonMesh& mesh, PlaneId front, const Vec3& along, const Plane& midplane,
                 PlaneId id, double tolerance_m, PolygonMesh& result, MeshClipScratch& scratch);
 

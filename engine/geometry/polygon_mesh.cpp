@@ -56,7 +56,7 @@ MassProperties mass_properties(const PolygonMesh& mesh) {
   if (mesh.empty()) return {};
   const Vec3 origin = mesh.vertices[mesh.corners[0]];
   Moments moments(origin);
-  // A hole runs clockwise: its fan counts negative by itself.
+  // Holes run clockwise, so their fans contribute with a negative sign.
   for (std::size_t k = 0; k < mesh.contours.size(); ++k) {
     const auto corners = mesh.contour_corners(k);
     const Vec3 a = mesh.vertices[corners[0]] - origin;

@@ -1,5 +1,5 @@
-// Visual meshes: closed surfaces of general polygons, possibly non-convex and with holes, never
-// permanently triangulated (paper 3.3, figure 9).
+// Visual meshes: closed surfaces of general polygons, which may be non-convex and have holes and
+// are triangulated only for rendering and export (paper 3.3, figure 9).
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ using Vec2f = Eigen::Vector2f;
 
 /// A surface of polygons in the rest frame R. A face has one outer contour, counter-clockwise seen
 /// from outside, and any number of further contours (holes clockwise, islands counter-clockwise);
-/// what is inside follows from even-odd counting. Faces made by cuts, the caps, follow all others.
-/// Contours of face f are [first_contour, +contour_count) of `contours`; corners of a contour
-/// likewise of the corner arrays, which run in parallel. All are in order without gaps: the
-/// contours of face after face, the corners of contour after contour.
+/// its inside is given by the even-odd rule. Caps, the faces made by cuts, come after all other
+/// faces. Face f has the contours [first_contour, +contour_count), a contour the elements
+/// [first_corner, +corner_count) of the corner arrays. All are in the order of faces and contours,
+/// without gaps.
 struct PolygonMesh {
   struct Contour {
     std::uint32_t first_corner = 0;
@@ -26,12 +26,12 @@ struct PolygonMesh {
   };
   struct Face {
     Plane plane;
-    PlaneId id;  ///< None on the original surface; that of the cut on a cap.
+    PlaneId id;  ///< Id of the cutting plane on a cap, none on the original surface.
     std::uint32_t first_contour = 0;
     std::uint32_t contour_count = 0;
     FaceKind kind = FaceKind::kSurface;
-    /// Kept through all cuts: of a mesh from a file the number of its group (RawMesh::groups), in a
-    /// scene that of its paint (Scene::paints), from 1; 0: none.
+    /// User number of the face, kept by all cuts; 0 means none. In a mesh from a file 1 + index of
+    /// the group (RawMesh::groups), in a scene 1 + index of the appearance (Scene::paints).
     std::uint32_t mark = 0;
   };
 
@@ -48,19 +48,19 @@ struct PolygonMesh {
   }
 };
 
-/// The first of the caps, or the number of faces if there are none.
+/// Returns the index of the first cap, or the number of faces if there are no caps.
 std::size_t first_cap(const PolygonMesh& mesh);
-/// In m²; holes do not count.
+/// Returns the area of a face in m², without its holes.
 double face_area(const PolygonMesh& mesh, std::size_t face);
-/// The surface of a convex.
+/// Returns the surface of a convex as a mesh.
 PolygonMesh polygon_mesh(const ConvexPolyhedron& convex);
-/// Texture coordinates along a plane's two flattest axes, in metres of the rest frame.
+/// Returns texture coordinates in m: the point projected along the largest component of `normal`.
 Vec2f planar_uv(const Vec3& point, const Vec3& normal);
-/// The least box around it.
+/// Returns the bounding box.
 Box bounds(const PolygonMesh& mesh);
-/// Of the enclosed solid (divergence theorem); meaningful only if the mesh is watertight.
+/// Returns mass properties for density 1 (divergence theorem); the mesh must be watertight.
 MassProperties mass_properties(const PolygonMesh& mesh);
-/// Directed edges without an opposite, plus those that occur more than once.
+/// Returns the number of directed edges without an opposite or repeated; 0 if watertight.
 std::size_t open_edges(const PolygonMesh& mesh);
 
 }  // namespace sunder

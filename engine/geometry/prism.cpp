@@ -6,7 +6,10 @@
 namespace sunder {
 namespace {
 
-constexpr double kStraight = 1e-6;  // of the size, or of a right angle
+/// Tolerance of a normal's z component.
+constexpr double kNormalTolerance = 1e-6;
+/// Tolerance of an outline over its diagonal.
+constexpr double kOutlineTolerance = 1e-6;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -37,7 +40,7 @@ std::optional<ZPrism> prism_along_z(const ConvexPolyhedron& convex, const Pose& 
   const Mat3 rotation = X_WR.rotation.toRotationMatrix();
   for (const ConvexPolyhedron::Face& face : convex.faces) {
     const double z = std::abs(rotation.row(2).dot(face.plane.normal));
-    if (z > kStraight && z < 1 - kStraight) return std::nullopt;
+    if (z > kNormalTolerance && z < 1 - kNormalTolerance) return std::nullopt;
   }
   ZPrism prism;
   std::vector<Vec2> points;
@@ -49,7 +52,7 @@ std::optional<ZPrism> prism_along_z(const ConvexPolyhedron& convex, const Pose& 
   }
   if (points.empty()) return std::nullopt;
   prism.low = box.min.z(), prism.high = box.max.z();
-  const double tolerance_m = kStraight * box.extent().head<2>().norm();
+  const double tolerance_m = kOutlineTolerance * box.extent().head<2>().norm();
   prism.outline = convex_outline(std::move(points), tolerance_m);
   if (prism.outline.size() < 3) return std::nullopt;
   return prism;

@@ -1,4 +1,4 @@
-// Prisms along z, solids that a plane scene can stand for by their outline; and outlines.
+// Convex outlines of points, and prisms along z, which planar scenes simulate by their outlines.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,18 @@
 
 namespace sunder {
 
-/// Convex hull of points in a plane, counter-clockwise (monotone chain, Andrew 1979). Corners less
-/// than `tolerance_m` off the line between their neighbours are left out.
+/// Returns the convex hull of points in a plane, counter-clockwise (monotone chain, Andrew 1979).
+/// Corners within `tolerance_m` of the line between their neighbours are left out.
 std::vector<Vec2> convex_outline(std::vector<Vec2> points, double tolerance_m);
 
-/// A convex polygon in the xy-plane, swept from `low` to `high` along z.
+/// The prism over a convex polygon in the xy-plane, from `low` to `high` along z, in metres.
 struct ZPrism {
-  std::vector<Vec2> outline;  ///< Counter-clockwise seen from +z, without needless corners.
+  std::vector<Vec2> outline;  ///< Counter-clockwise seen from +z, without collinear corners.
   double low = 0, high = 0;
 };
 
-/// The convex, placed in W, as a prism along z; nothing if it is none within a millionth of its
-/// size.
+/// Returns a convex with the pose X_WR as a prism along z; none if a face normal is neither
+/// parallel nor perpendicular to z within 1e-6, or if the outline is degenerate.
 std::optional<ZPrism> prism_along_z(const ConvexPolyhedron& convex, const Pose& X_WR);
 
 }  // namespace sunder

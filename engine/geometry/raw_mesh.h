@@ -1,5 +1,5 @@
-// A mesh as a file gives it: polygons that may be open, doubled, flipped or degenerate. What can
-// be broken is a PolygonMesh; engine/geometry/repair/repair.h makes one of the other.
+// A mesh as a file gives it: polygons that may be open, duplicate, flipped or degenerate.
+// engine/geometry/repair/repair.h makes watertight PolygonMeshes of it, which can be broken.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,27 @@
 
 namespace sunder {
 
-/// Polygons with one contour each. Every corner names a vertex that exists; nothing else is sure.
+/// Polygons of one contour each. All vertex indices are valid; nothing else is guaranteed.
 struct RawMesh {
   struct Polygon {
     std::uint32_t first_corner = 0;
     std::uint32_t corner_count = 0;
     std::uint32_t group = kNoGroup;  ///< Index into `groups`.
   };
-  /// What a file calls some of its polygons: their group, object and material, the narrower first.
+  /// A group of polygons in a file: its names, narrowest first (group, object, material).
   struct Group {
     std::vector<std::string> names;
-    std::optional<Paint> paint = std::nullopt;  ///< None: the file does not say how it looks.
+    std::optional<Appearance> paint = std::nullopt;  ///< None if the file defines no appearance.
   };
   static constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
 
   std::vector<Vec3> vertices;
   std::vector<Polygon> polygons;
   std::vector<std::uint32_t> corners;  ///< Vertex index of each corner.
-  std::vector<Vec3f> corner_normals;   ///< Zero where the file has none; empty if it has none.
-  std::vector<Vec2f> corner_uvs;       ///< Likewise.
+  std::vector<Vec3f> corner_normals;  ///< Zero for corners without one; empty if the file has none.
+  std::vector<Vec2f> corner_uvs;  ///< Zero for corners without ones; empty if the file has none.
   std::vector<Group> groups;
-  /// Files that the mesh names for its look and that are not there: pictures, lists of materials.
+  /// Missing files that the mesh file refers to: images and material libraries.
   std::vector<std::string> missing_files;
 
   std::span<const std::uint32_t> polygon_corners(std::size_t p) const {

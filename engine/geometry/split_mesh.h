@@ -1,4 +1,4 @@
-// One mesh cut to many convex regions, such as the cells of a pattern.
+// Clipping of one mesh to many convex regions, such as the cells of a fracture pattern.
 #pragma once
 
 #include <span>
@@ -8,22 +8,22 @@
 
 namespace sunder {
 
-/// A plane and its name.
+/// A plane and its id.
 struct NamedPlane {
   Plane plane;
   PlaneId id;
 };
 
-/// Where all `planes` have distance <= 0; `box` encloses it, and may be infinite. Planes near the
-/// region first is fastest.
+/// A convex region: the points with distance <= 0 to all `planes`. `box` encloses the region and
+/// may be infinite. Clipping is fastest if the planes closest to the region come first.
 struct MeshRegion {
   Box box;
   std::span<const NamedPlane> planes;
 };
 
-/// The part of a watertight mesh in each region, as clip() by its planes would leave it (within
-/// rounding); empty where there is none. A face belongs to few regions, so the mesh is first halved
-/// between halves of the regions, and so on. Parallel; the same bits for any number of threads.
+/// Returns the part of a watertight mesh in each region: within rounding, the result of clip() by
+/// the region's planes; empty if no part is inside. Mesh and regions are bisected recursively,
+/// since most faces meet few regions. Parallel, with the same bits for any number of threads.
 std::vector<PolygonMesh> split(const PolygonMesh& mesh, std::span<const MeshRegion> regions,
                                double tolerance_m);
 

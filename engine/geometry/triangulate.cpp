@@ -6,11 +6,12 @@
 namespace sunder {
 namespace {
 
-constexpr std::size_t kMostForLeastArea = 64, kMostForEars = 2000;
-/// Corners tried as ears, for each corner.
-constexpr std::size_t kMostTries = 16;
+/// Most corners of contours triangulated with least area, and by ear clipping.
+constexpr std::size_t kMaxLeastAreaCorners = 64, kMaxEarClippingCorners = 2000;
+/// Bound of the number of ear tests of a contour, for each of its corners.
+constexpr std::size_t kMaxTriesPerCorner = 16;
 
-/// Area, plus a little for needles, so that equal areas are divided well.
+/// Returns the area plus a small penalty for thin triangles, which decides between equal areas.
 double cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double area = 0.5 * (b - a).cross(c - a).norm();
   const double longest =
@@ -19,7 +20,7 @@ double cost(const Vec3& a, const Vec3& b, const Vec3& c) {
   return area + 1e-8 * longest * std::min(1e4, longest / std::max(area, 1e-300));
 }
 
-/// Dynamic programming over chords (Barequet and Sharir 1995).
+/// Returns the triangulation of least cost, by dynamic programming (Barequet and Sharir 1995).
 std::vector<Triangle> least_area(std::span<const Vec3> contour) {
   const std::size_t n = contour.size();
   std::vector<double> best(n * n, 0);
@@ -53,66 +54,66 @@ std::vector<Triangle> least_area(std::span<const Vec3> contour) {
   return triangles;
 }
 
-/// Ear clipping in the plane that fits best.
+/// Ear clipping of the contour projected to the plane that fits best.
 class EarClipper {
  public:
-  explicit EarClipper(std::span<const Vec3> contour) : left_(contour.size()) {
-    std::iota(left_.begin(), left_.end(), 0u);
+  explicit EarClipper(std::span<const Vec3> contour) : remaining_(contour.size()) {
+    std::iota(remaining_.begin(), remaining_.end(), 0u);
     Vec3 normal = Vec3::Zero();
     for (std::size_t i = 1; i < contour.size(); ++i) {
       normal += (contour[i - 1] - contour[0]).cross(contour[i] - contour[0]);
     }
     const Vec3 up = normal.norm() > 0 ? normal.normalized() : Vec3(Vec3::UnitZ());
     const Vec3 x = up.unitOrthogonal(), y = up.cross(x);
-    for (const Vec3& p : contour) flat_.emplace_back(x.dot(p), y.dot(p));
+    for (const Vec3& p : contour) projected_.emplace_back(x.dot(p), y.dot(p));
   }
 
   std::vector<Triangle> clip() {
     std::vector<Triangle> triangles;
-    std::size_t at = 0, refused = 0, tries = kMostTries * left_.size();
-    while (left_.size() > 3) {
-      const std::size_t n = left_.size();
+    std::size_t at = 0, rejected = 0, tries = kMaxTriesPerCorner * remaining_.size();
+    while (remaining_.size() > 3) {
+      const std::size_t n = remaining_.size();
       at %= n;
-      const Triangle ear = {left_[(at + n - 1) % n], left_[at], left_[(at + 1) % n]};
-      // Where no ear is left (the contour crosses itself) any will do: the result stays closed.
-      if (refused < n && tries > 0 && !is_ear(ear)) {
+      const Triangle ear = {remaining_[(at + n - 1) % n], remaining_[at], remaining_[(at + 1) % n]};
+      // If there is no ear (the contour crosses itself) any corner is cut: the result stays closed.
+      if (rejected < n && tries > 0 && !is_ear(ear)) {
         ++at;
-        ++refused;
+        ++rejected;
         --tries;
         continue;
       }
       triangles.push_back(ear);
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
-      ++at;  // spreads the ears around
-      refused = 0;
+      remaining_.erase(remaining_.begin() + static_cast<std::ptrdiff_t>(at));
+      ++at;  // spreads the ears along the contour
+      rejected = 0;
     }
-    triangles.push_back({left_[0], left_[1], left_[2]});
+    triangles.push_back({remaining_[0], remaining_[1], remaining_[2]});
     return triangles;
   }
 
  private:
   double orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const Vec2 ab = flat_[b] - flat_[a], ac = flat_[c] - flat_[a];
+    const Vec2 ab = projected_[b] - projected_[a], ac = projected_[c] - projected_[a];
     return ab.x() * ac.y() - ab.y() * ac.x();
   }
   bool is_ear(const Triangle& ear) const {
     if (!(orientation(ear[0], ear[1], ear[2]) > 0)) return false;
-    return std::none_of(left_.begin(), left_.end(), [&](std::uint32_t v) {
+    return std::none_of(remaining_.begin(), remaining_.end(), [&](std::uint32_t v) {
       return v != ear[0] && v != ear[1] && v != ear[2] && orientation(ear[0], ear[1], v) >= 0 &&
              orientation(ear[1], ear[2], v) >= 0 && orientation(ear[2], ear[0], v) >= 0;
     });
   }
 
-  std::vector<std::uint32_t> left_;
-  std::vector<Vec2> flat_;
+  std::vector<std::uint32_t> remaining_;
+  std::vector<Vec2> projected_;
 };
 
 }  // namespace
 
 std::vector<Triangle> triangulate(std::span<const Vec3> contour) {
   if (contour.size() < 3) return {};
-  if (contour.size() <= kMostForLeastArea) return least_area(contour);
-  if (contour.size() <= kMostForEars) return EarClipper(contour).clip();
+  if (contour.size() <= kMaxLeastAreaCorners) return least_area(contour);
+  if (contour.size() <= kMaxEarClippingCorners) return EarClipper(contour).clip();
   std::vector<Triangle> fan;
   for (std::uint32_t i = 2; i < contour.size(); ++i) fan.push_back({0, i - 1, i});
   return fan;

@@ -1,4 +1,4 @@
-// Holes are joined to the contour around them by bridges (Eberly 2008), then ears are cut.
+// Holes are joined to the contour around them by bridge edges (Eberly 2008), then ears are clipped.
 #include "engine/geometry/triangulate_face.h"
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 namespace sunder {
 namespace {
 
-/// Corners tested against ears, for each corner of a face; beyond it ears are not tested.
-constexpr std::size_t kMostTests = 4000;
+/// Bound of the number of point-in-ear tests, for each corner of a face. Later ears are not tested.
+constexpr std::size_t kMaxTestsPerCorner = 4000;
 
 double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -20,7 +20,7 @@ bool in_triangle(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
 
 class FaceTriangulator {
  public:
-  using Loop = std::vector<std::uint32_t>;  ///< Corners.
+  using Loop = std::vector<std::uint32_t>;  ///< Indices of corners of the mesh.
 
   FaceTriangulator(const PolygonMesh& mesh, const PolygonMesh::Face& face)
       : mesh_(mesh), first_(mesh.contours[face.first_contour].first_corner) {
@@ -39,7 +39,7 @@ class FaceTriangulator {
       }
       (area(loop) >= 0 ? outer_ : holes_).push_back(std::move(loop));
     }
-    tests_left_ = kMostTests * points_.size();
+    tests_left_ = kMaxTestsPerCorner * points_.size();
   }
 
   std::vector<Triangle> run() {
@@ -60,7 +60,7 @@ class FaceTriangulator {
     return twice;
   }
 
-  /// Those farthest to the right first: what a hole then sees to its right is no hole any more.
+  /// Joins all holes, rightmost first: those to the right of a hole are then part of an outer loop.
   void join_holes() {
     for (Loop& hole : holes_) {
       const auto rightmost =
@@ -70,11 +70,11 @@ class FaceTriangulator {
     }
     std::stable_sort(holes_.begin(), holes_.end(),
                      [&](const Loop& a, const Loop& b) { return at(a[0]).x() > at(b[0]).x(); });
-    for (const Loop& hole : holes_) bridge(hole);
+    for (const Loop& hole : holes_) bridge_hole(hole);
   }
 
-  /// Joins a hole, whose first corner is its rightmost, to the loop that it sees to its right.
-  void bridge(const Loop& hole) {
+  /// Joins a hole, whose first corner is its rightmost, to the nearest outer loop to its right.
+  void bridge_hole(const Loop& hole) {
     const Vec2& from = at(hole[0]);
     double nearest = std::numeric_limits<double>::infinity();
     Loop* around = &outer_[0];
@@ -82,7 +82,7 @@ class FaceTriangulator {
     for (Loop& loop : outer_) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const Vec2 &a = at(loop[i]), &b = at(loop[(i + 1) % loop.size()]);
-        if (!(a.y() <= from.y() && b.y() > from.y())) continue;  // its inside is to the left
+        if (!(a.y() <= from.y() && b.y() > from.y())) continue;  // no upward edge at this height
         const double x = a.x() + (from.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
         if (x < from.x() || x >= nearest) continue;
         nearest = x;
@@ -90,7 +90,7 @@ class FaceTriangulator {
         edge = i;
       }
     }
-    const std::size_t to = visible(*around, edge, from, nearest);
+    const std::size_t to = find_visible_corner(*around, edge, from, nearest);
     Loop joined(around->begin(), around->begin() + static_cast<std::ptrdiff_t>(to + 1));
     joined.insert(joined.end(), hole.begin(), hole.end());
     joined.push_back(hole[0]);
@@ -98,8 +98,9 @@ class FaceTriangulator {
     *around = std::move(joined);
   }
 
-  /// A corner of `loop` that sees `from`, which sees the loop's edge at x to the right.
-  std::size_t visible(const Loop& loop, std::size_t edge, const Vec2& from, double x) const {
+  /// Returns a corner of `loop` visible from `from`, whose ray to the right meets `edge` at x.
+  std::size_t find_visible_corner(const Loop& loop, std::size_t edge, const Vec2& from,
+                                  double x) const {
     const std::size_t next = (edge + 1) % loop.size();
     std::size_t best = at(loop[edge]).x() > at(loop[next]).x() ? edge : next;
     const Vec2 opposite(x, from.y()), end = at(loop[best]);
@@ -124,19 +125,19 @@ class FaceTriangulator {
   }
 
   void cut_ears(Loop& loop) {
-    std::size_t i = 0, refused = 0;
+    std::size_t i = 0, rejected = 0;
     while (loop.size() > 3) {
       const std::size_t n = loop.size();
-      if (refused < n && !is_ear(loop, i % n)) {
-        ++refused;
+      if (rejected < n && !is_ear(loop, i % n)) {
+        ++rejected;
         ++i;
         continue;
       }
       const std::size_t here = i % n;
       triangles_.push_back({loop[(here + n - 1) % n], loop[here], loop[(here + 1) % n]});
       loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(here));
-      refused = 0;
-      i = here == 0 ? 0 : here;  // the next corner: neighbours in turn, so that no fan arises
+      rejected = 0;
+      i = here == 0 ? 0 : here;  // goes on with the next corner, which avoids fans
     }
     if (loop.size() == 3) triangles_.push_back({loop[0], loop[1], loop[2]});
   }
@@ -155,7 +156,7 @@ class FaceTriangulator {
 
   const PolygonMesh& mesh_;
   std::uint32_t first_;
-  std::vector<Vec2> points_;  ///< Of the face's corners.
+  std::vector<Vec2> points_;  ///< The face's corners, projected to its plane.
   std::vector<Loop> outer_, holes_;
   std::vector<Triangle> triangles_;
   std::size_t tests_left_ = 0;

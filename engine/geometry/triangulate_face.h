@@ -1,4 +1,4 @@
-// Triangles of one face of a mesh, to draw or export: faces themselves stay polygons.
+// Triangulation of one face of a mesh, for rendering and export.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace sunder {
 
-/// Triangles of corners (indices into mesh.corners) that fill the face, holes left out. They have
-/// its contours' edges, each once, so that the triangles of a watertight mesh are watertight too;
-/// work is bounded, and what is too tangled for it comes out closed, if not well covered.
+/// Returns triangles of corners (indices into mesh.corners) that cover a face without its holes.
+/// Each edge of a contour is in one triangle, so those of a watertight mesh are watertight. Work is
+/// bounded: triangles of a face that exceeds the bound may overlap or extend beyond the face.
 std::vector<Triangle> triangulate(const PolygonMesh& mesh, std::size_t face);
 
 }  // namespace sunder

@@ -25,10 +25,10 @@ std::uint64_t hash_bytes(const std::vector<std::byte>& bytes) {
 }
 
 std::filesystem::path place_of(const std::filesystem::path& path) {
-  constexpr int kMostLinks = 40;
+  constexpr int kMaxLinks = 40;
   std::filesystem::path place = path;
   std::error_code error;
-  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(place, error); ++i)
+  for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(place, error); ++i)
     place = place.parent_path() / std::filesystem::read_symlink(place, error);
   return place;
 }

@@ -1,4 +1,4 @@
-// Bytes in and out of files: plain values in sequence, read with every length checked.
+// Binary data of files: sequences of plain values, read with bounds checks.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace sunder {
 
-/// Appends values to a buffer, little-endian as in memory.
+/// Appends values to a buffer in memory order, little-endian.
 class ByteWriter {
  public:
   template <class T>
@@ -33,14 +33,14 @@ class ByteWriter {
   void put(const Eigen::Matrix<Scalar, size, 1>& vector) {
     for (const Scalar number : vector) put(number);
   }
-  /// One after another.
+  /// Appends several values in order.
   template <class First, class Second, class... More>
   void put(const First& first, const Second& second, const More&... more) {
     put(first);
     put(second);
     (put(more), ...);
   }
-  /// Their count, then each.
+  /// Appends the number of elements, then each element.
   template <class T>
   void put_list(const std::vector<T>& list) {
     put(static_cast<std::uint32_t>(list.size()));
@@ -49,7 +49,7 @@ class ByteWriter {
   std::vector<std::byte> bytes;
 };
 
-/// Reads values back; throws InputError naming the file when there are too few bytes.
+/// Reads values written by ByteWriter; throws InputError naming the file if bytes are missing.
 class ByteReader {
  public:
   ByteReader(const std::vector<std::byte>& bytes, std::string file)
@@ -63,12 +63,12 @@ class ByteReader {
     at_ += sizeof(T);
     return value;
   }
-  /// The next values, into these.
+  /// Reads the next values into the arguments.
   template <class... T>
   void take_to(T&... values) {
     (take_one(values), ...);
   }
-  /// As ByteWriter::put_list() wrote it.
+  /// Reads a list written by ByteWriter::put_list().
   template <class T>
   std::vector<T> take_list() {
     std::vector<T> list(take_count(sizeof(T)));
@@ -81,13 +81,13 @@ class ByteReader {
     for (char& c : text) c = take<char>();
     return text;
   }
-  /// A count of items of at least `item_bytes` each; refuses one that the file cannot hold.
+  /// Reads the number of items of at least `item_bytes` each; throws if the file is too short.
   std::uint32_t take_count(std::size_t item_bytes) {
     const auto count = take<std::uint32_t>();
     need(std::size_t{count} * item_bytes);
     return count;
   }
-  /// The next bytes as they are; valid as long as the buffer.
+  /// Returns the next bytes; valid as long as the buffer.
   std::span<const std::byte> take_bytes(std::size_t size) {
     need(size);
     at_ += size;
@@ -113,21 +113,21 @@ class ByteReader {
   std::size_t at_ = 0;
 };
 
-/// The whole file; throws InputError if it cannot be read.
+/// Returns the content of a file; throws InputError if it cannot be read.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
-/// A hash (XXH3) of bytes; the same on every machine.
+/// Returns the XXH3 hash of bytes; equal on every machine.
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
-/// Where a file of this name is or will be: links are followed, dangling ones, too.
+/// Returns the path of a file after following symbolic links, dangling ones included.
 std::filesystem::path place_of(const std::filesystem::path& path);
-/// Whether it is there and no regular file: a device or a pipe, which is written to and not
-/// replaced.
+/// True if the path exists and is neither a regular file nor a folder: a device or a pipe, which is
+/// written to directly and not replaced.
 bool is_device(const std::filesystem::path& path);
-/// Where a file is written until it is complete: beside its place, named after this process.
+/// Returns the path of an incomplete file: in the same folder, with the process id in its name.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
-/// Moves a complete file to its place, or removes it and throws FileError.
+/// Renames a complete file to its path; on failure removes it and throws FileError.
 void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
-/// Writes under a temporary name and renames; a device or a pipe directly. Makes the folder. Throws
-/// FileError if that fails.
+/// Writes a file under a temporary name and renames it; writes to a device or pipe directly.
+/// Creates the folder. Throws FileError on failure.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace sunder

@@ -8,7 +8,7 @@
 namespace sunder {
 namespace {
 
-/// Throws unless all are below `limit`.
+/// Reads a list of indices; throws InputError unless all are below `limit`.
 std::vector<std::uint32_t> take_indices(ByteReader& in, std::size_t limit,
                                         const std::string& file) {
   std::vector<std::uint32_t> list = in.take_list<std::uint32_t>();
@@ -18,7 +18,7 @@ std::vector<std::uint32_t> take_indices(ByteReader& in, std::size_t limit,
   return list;
 }
 
-/// Of faces of either kind of surface: where they are and what they are called.
+/// Writes the plane, id and kind of a face.
 template <class Face>
 void put_plane(ByteWriter& out, const Face& face) {
   out.put(face.plane.normal, face.plane.d, face.id.value, static_cast<std::uint8_t>(face.kind));

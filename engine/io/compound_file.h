@@ -1,4 +1,5 @@
-// Compounds as bytes, bit for bit: what decompositions are kept as between runs.
+// Exact binary storage of compounds, for the cache of decompositions. Convex::X_RT is not stored:
+// it is the identity before a solid bends.
 #pragma once
 
 #include "engine/io/bytes.h"
@@ -6,8 +7,9 @@
 
 namespace sunder {
 
+/// Appends a compound to `out`.
 void put(ByteWriter& out, const Compound& compound);
-/// What put() wrote; throws InputError for anything that is no sound compound.
+/// Reads a compound written by put(); throws InputError if it is not a valid compound.
 Compound take_compound(ByteReader& in, const std::string& file);
 
 }  // namespace sunder

@@ -9,19 +9,19 @@
 namespace sunder {
 namespace {
 
-constexpr int kDeepest = 100;
+constexpr int kMaxDepth = 100;
 
 }  // namespace
 
 Figures parse_figures(const std::string& text, const std::string& file) {
   using Json = nlohmann::json;
   const auto is_shallow = [&](int depth, Json::parse_event_t, const Json&) {
-    if (depth > kDeepest) throw InputError(file + ": lists in lists, deeper than any of ours");
+    if (depth > kMaxDepth) throw InputError(file + ": lists in lists, deeper than any of ours");
     return true;
   };
   const Json document = Json::parse(text, is_shallow, false);
   if (document.is_discarded()) throw InputError(file + ": not a JSON document");
-  const Json flat = document.flatten();  // calls itself for what is nested
+  const Json flat = document.flatten();  // flatten() is recursive
   Figures figures;
   for (const auto& [place, value] : flat.items()) {
     if (value.is_boolean()) figures[place] = value.get<bool>();
@@ -46,7 +46,7 @@ std::string format_figures(const Figures& figures) {
     if (!std::holds_alternative<EmptyList>(figure)) continue;
     document[nlohmann::json::json_pointer(place)] = nlohmann::json::array();
   }
-  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;  // what is not UTF-8
+  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;  // replaces invalid UTF-8
   return document.dump(2, ' ', false, kReplace) + "\n";
 }
 

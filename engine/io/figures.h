@@ -1,4 +1,4 @@
-// JSON as figures: a flat list of what is where, for files the program reads back.
+// Flattened JSON documents, for files that the program reads back.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,20 @@
 
 namespace sunder {
 
-/// A list without elements, which has no place to be seen at otherwise.
+/// An empty list, which has no element whose path could represent it.
 struct EmptyList {};
 
-/// A JSON document by place: "/frame/p50_ms", "/scenes/0/name" (JSON pointers, RFC 6901).
+/// A JSON document by path: "/frame/p50_ms", "/scenes/0/name" (JSON pointers, RFC 6901).
 using Figures =
     std::map<std::string, std::variant<bool, std::int64_t, double, std::string, EmptyList>>;
 
-/// Throws InputError naming `file` if the text is not JSON. Nulls and empty lists are left out.
+/// Parses JSON; throws InputError naming `file` on failure. Nulls and empty lists are omitted.
 Figures parse_figures(const std::string& text, const std::string& file);
-/// The number at a place, whole or not; 0 if none is there.
+/// Returns the number at a path, integer or not; 0 if there is none.
 double number_at(const Figures& figures, const std::string& place);
-/// The text at a place; empty if none is there.
+/// Returns the text at a path; empty if there is none.
 std::string text_at(const Figures& figures, const std::string& place);
-/// The nested document, indented; ends with a newline.
+/// Returns the nested document, indented, with a final newline.
 std::string format_figures(const Figures& figures);
 
 }  // namespace sunder

@@ -1,7 +1,8 @@
-// Layout: "SUNDERF6" (or 5: contacts without keys of bodies; or 4: without paints, lights and what
-// happens inside, either; or 3: nothing is known to be asleep, either; or 2: without poses of
-// meshes, either; or 1: without debris and dust, either), XXH3 of the rest (8 bytes), size of the
-// content (8 bytes), content in zstd.
+// Layout: "SUNDERF" and the version, XXH3 of the rest (8 bytes), content size (8 bytes), zstd data.
+//
+// Versions: 6 is current; 5 has contacts without keys of bodies; 4 also lacks textures, lights and
+// the inspection; 3 also lacks the sleep flag; 2 also lacks poses of meshes; 1 also lacks debris
+// and dust.
 #include "engine/io/frame_file.h"
 
 #include <algorithm>
@@ -18,10 +19,11 @@ namespace sunder {
 namespace {
 
 constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
-constexpr std::size_t kName = sizeof kMagic - 1;  // what precedes the version
-constexpr std::size_t kHeader = sizeof kMagic + 8;
-constexpr std::uint64_t kLargest = 1ull << 31;  // content beyond this is refused
-constexpr int kLevel = 19;                      // written once, kept for years
+// Length of the magic number without the version.
+constexpr std::size_t kMagicLength = sizeof kMagic - 1;
+constexpr std::size_t kHeaderBytes = sizeof kMagic + 8;
+constexpr std::uint64_t kMaxContentBytes = 1ull << 31;  // largest accepted content
+constexpr int kCompressionLevel = 19;                   // files are written once and kept for years
 
 void put(ByteWriter& out, const FrameBody& body) {
   out.put(body.key, body.X_WB.position, body.X_WB.rotation.coeffs(), body.com_R,
@@ -34,7 +36,7 @@ FrameBody take_body(ByteReader& in) {
   const auto flags = in.take<std::uint8_t>();
   body.is_static = (flags & 1) != 0;
   body.asleep = (flags & 2) != 0;
-  body.before_key = body.key;
+  body.previous_key = body.key;
   return body;
 }
 
@@ -88,7 +90,7 @@ std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::str
   return inspection;
 }
 
-/// Only the meshes that the frame draws; `new_of_old` numbers them.
+/// Appends the indices of the meshes that are drawn to `drawn`; returns the new index of each mesh.
 std::vector<std::uint32_t> drawn_meshes(const Frame& frame, std::vector<std::uint32_t>& drawn) {
   std::vector<std::uint32_t> new_of_old(frame.meshes->size(), MeshIndex::kNone);
   for (const Instance& instance : frame.instances) {
@@ -117,7 +119,7 @@ std::vector<std::byte> content_of(const Frame& frame) {
   }
   put_codes(out, frame.debris);
   put_codes(out, frame.dust);
-  put(out, frame.paints ? *frame.paints : std::vector<Paint>());
+  put(out, frame.paints ? *frame.paints : std::vector<Appearance>());
   std::vector<std::shared_ptr<const Mesh>> meshes;
   for (const std::uint32_t mesh : drawn) meshes.push_back((*frame.meshes)[mesh]);
   put_uvs(out, meshes);
@@ -132,7 +134,7 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
   in.take_to(frame->index, frame->time_s);
   frame->view = take_view(in, version >= 5);
   std::vector<Material> materials = take_materials(in);
-  std::vector<Mesh> meshes(in.take_count(kLeastMeshBytes));
+  std::vector<Mesh> meshes(in.take_count(kMinMeshBytes));
   for (Mesh& mesh : meshes) mesh = take_mesh(in, file, materials.size(), version >= 3);
   frame->bodies.resize(in.take_count(89));
   for (FrameBody& body : frame->bodies) body = take_body(in);
@@ -147,19 +149,19 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
     frame->debris = take_codes(in, file, materials.size(), decode_debris);
     frame->dust = take_codes(in, file, materials.size(), decode_dust);
   }
-  std::vector<Paint> paints;
+  std::vector<Appearance> paints;
   if (version >= 5) {
     paints = take_paints(in, file);
     take_uvs(in, file, meshes);
   }
-  for (const Mesh& mesh : meshes) check_looks(mesh, file, paints.size());
+  for (const Mesh& mesh : meshes) check_appearances(mesh, file, paints.size());
   if (version >= 5 && in.take<std::uint8_t>() != 0) {
     frame->inspection = take_inspection(in, file, *frame, version >= 6);
   }
   if (!in.at_end()) throw InputError(file + ": corrupt: bytes are left over");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
   if (!paints.empty())
-    frame->paints = std::make_shared<const std::vector<Paint>>(std::move(paints));
+    frame->paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
   auto store = std::make_shared<MeshStore>();
   for (Mesh& mesh : meshes) store->push_back(std::make_shared<const Mesh>(std::move(mesh)));
   frame->meshes = std::move(store);
@@ -171,8 +173,8 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
 void write_frame(const std::filesystem::path& path, const Frame& frame) {
   const std::vector<std::byte> content = content_of(frame);
   std::vector<std::byte> packed(ZSTD_compressBound(content.size()));
-  const std::size_t size =
-      ZSTD_compress(packed.data(), packed.size(), content.data(), content.size(), kLevel);
+  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), content.data(),
+                                         content.size(), kCompressionLevel);
   SUNDER_CHECK(!ZSTD_isError(size));
   packed.resize(size);
 
@@ -189,22 +191,24 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::vector<std::byte> file = read_file(path);
-  const bool is_frame = file.size() >= kHeader + 8 && std::memcmp(file.data(), kMagic, kName) == 0;
-  const int version = is_frame ? static_cast<char>(file[kName]) - '0' : 0;
-  if (version < 1 || version > kMagic[kName] - '0') {
+  const bool is_frame =
+      file.size() >= kHeaderBytes + 8 && std::memcmp(file.data(), kMagic, kMagicLength) == 0;
+  const int version = is_frame ? static_cast<char>(file[kMagicLength]) - '0' : 0;
+  if (version < 1 || version > kMagic[kMagicLength] - '0') {
     throw InputError(name + ": not a frame file of this version of sunder; record it again");
   }
   ByteReader header(file, name);
   for (std::size_t i = 0; i < sizeof kMagic; ++i) header.take<char>();
   const auto expected = header.take<std::uint64_t>();
-  if (XXH3_64bits(file.data() + kHeader, file.size() - kHeader) != expected) {
+  if (XXH3_64bits(file.data() + kHeaderBytes, file.size() - kHeaderBytes) != expected) {
     throw InputError(name + ": corrupt: the checksum does not match; record it again");
   }
   const auto size = header.take<std::uint64_t>();
-  if (size > kLargest) throw InputError(name + ": corrupt: it claims to be too large");
+  if (size > kMaxContentBytes) throw InputError(name + ": corrupt: it claims to be too large");
   std::vector<std::byte> content(size);
-  const std::size_t got = ZSTD_decompress(content.data(), content.size(), file.data() + kHeader + 8,
-                                          file.size() - kHeader - 8);
+  const std::size_t got =
+      ZSTD_decompress(content.data(), content.size(), file.data() + kHeaderBytes + 8,
+                      file.size() - kHeaderBytes - 8);
   if (ZSTD_isError(got) || got != size) throw InputError(name + ": corrupt: cannot be unpacked");
   return frame_of(content, name, version);
 }

@@ -1,4 +1,4 @@
-// One frame in a file: what golden images are rendered from.
+// Files of one frame each, which golden images are rendered from.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace sunder {
 
-/// Compressed (zstd) and checksummed; written under a temporary name and renamed.
+/// Writes a frame, compressed (zstd) and with a checksum, under a temporary name, and renames it.
 void write_frame(const std::filesystem::path& path, const Frame& frame);
-/// Throws InputError for a file that is missing, truncated, corrupt or of another version.
+/// Reads a frame; throws InputError if it is missing, truncated, corrupt or of an unknown version.
 FramePtr read_frame(const std::filesystem::path& path);
 
 }  // namespace sunder

@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::uint32_t kNoPicture = ~std::uint32_t{0};
 
-// What a paint says of itself, so that one takes no more bytes than it needs.
-constexpr unsigned kFromBelow = 1, kRelief = 2, kGloss = 4;
+// Flags of the optional members that follow.
+constexpr unsigned kVFromBottom = 1, kRelief = 2, kGloss = 4;
 
 }  // namespace
 
@@ -74,16 +74,16 @@ void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes) {
   }
 }
 
-void check_looks(const Mesh& mesh, const std::string& file, std::size_t paints) {
+void check_appearances(const Mesh& mesh, const std::string& file, std::size_t paints) {
   for (const Mesh::Vertex& vertex : mesh.vertices) {
     if (vertex.look >= Mesh::kFirstPaint + paints)
       throw InputError(file + ": corrupt: a mesh has no paint");
   }
 }
 
-void put(ByteWriter& out, const std::vector<Paint>& paints) {
+void put(ByteWriter& out, const std::vector<Appearance>& paints) {
   std::vector<const std::vector<std::byte>*> pictures;  // each once
-  const auto put_picture = [&](const Picture& picture) {
+  const auto put_picture = [&](const EncodedImage& picture) {
     const auto known = std::find(pictures.begin(), pictures.end(), picture.get());
     out.put(picture ? static_cast<std::uint32_t>(known - pictures.begin()) : kNoPicture);
     if (!picture || known != pictures.end()) return;
@@ -91,14 +91,14 @@ void put(ByteWriter& out, const std::vector<Paint>& paints) {
     out.put_list(*picture);
   };
   out.put(static_cast<std::uint32_t>(paints.size()));
-  for (const Paint& paint : paints) {
+  for (const Appearance& paint : paints) {
     out.put(paint.color,
-            static_cast<std::uint8_t>((paint.from_below ? kFromBelow : 0) |
+            static_cast<std::uint8_t>((paint.v_from_bottom ? kVFromBottom : 0) |
                                       (paint.relief ? kRelief : 0) | (paint.gloss ? kGloss : 0)));
     put_picture(paint.picture);
     if (paint.relief) {
       put_picture(paint.relief);
-      out.put(paint.relief_scale);
+      out.put(paint.normal_scale);
     }
     if (paint.gloss) {
       out.put(paint.gloss->roughness, paint.gloss->metallic);
@@ -107,9 +107,9 @@ void put(ByteWriter& out, const std::vector<Paint>& paints) {
   }
 }
 
-std::vector<Paint> take_paints(ByteReader& in, const std::string& file) {
-  std::vector<Picture> pictures;
-  const auto take_picture = [&]() -> Picture {
+std::vector<Appearance> take_paints(ByteReader& in, const std::string& file) {
+  std::vector<EncodedImage> pictures;
+  const auto take_picture = [&]() -> EncodedImage {
     const auto number = in.take<std::uint32_t>();
     if (number == kNoPicture) return nullptr;
     if (number > pictures.size()) throw InputError(file + ": corrupt: a paint has no picture");
@@ -118,15 +118,15 @@ std::vector<Paint> take_paints(ByteReader& in, const std::string& file) {
     }
     return pictures[number];
   };
-  std::vector<Paint> paints(in.take_count(17));
-  for (Paint& paint : paints) {
+  std::vector<Appearance> paints(in.take_count(17));
+  for (Appearance& paint : paints) {
     in.take_to(paint.color);
     const auto flags = in.take<std::uint8_t>();
-    paint.from_below = (flags & kFromBelow) != 0;
+    paint.v_from_bottom = (flags & kVFromBottom) != 0;
     paint.picture = take_picture();
     if ((flags & kRelief) != 0) {
       paint.relief = take_picture();
-      in.take_to(paint.relief_scale);
+      in.take_to(paint.normal_scale);
     }
     if ((flags & kGloss) != 0) {
       paint.gloss.emplace();

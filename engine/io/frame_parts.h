@@ -1,4 +1,4 @@
-// The parts of a frame that files store as they are: views, materials' looks, meshes.
+// Storage of parts of a frame that files have in common: views, appearance of materials, meshes.
 #pragma once
 
 #include <memory>
@@ -11,34 +11,35 @@
 
 namespace sunder {
 
+/// Appends a view to `out`.
 void put(ByteWriter& out, const View& view);
-/// `lit`: with its exposure, shutter and lights, as put() has it; older files have none.
+/// Reads a view. `lit`: with exposure, shutter and lights, as put() writes; older files lack them.
 View take_view(ByteReader& in, bool lit = true);
 
-/// Names and looks: what pictures need of them.
+/// Appends the names and appearance of materials; other properties are not stored.
 void put(ByteWriter& out, const std::vector<Material>& materials);
 std::vector<Material> take_materials(ByteReader& in);
 
-/// Frame::names.
+/// Appends Frame::names.
 void put_names(ByteWriter& out, const std::vector<std::string>& names);
 std::vector<std::string> take_names(ByteReader& in);
 
+/// Appends a mesh without its texture coordinates.
 void put(ByteWriter& out, const Mesh& mesh);
-/// Throws InputError, naming `file`, if the mesh does not fit together or its material is none of
-/// `materials`.
-/// `posed`: with Mesh::X_RT, as put() has it; older files have none.
+/// Reads a mesh. Throws InputError, naming `file`, if its indices are invalid or its material is
+/// not below `materials`. `posed`: with Mesh::X_RT, as put() writes it; older files have none.
 Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, bool posed = true);
-/// Texture coordinates of those meshes that have any; what older files and runs do without.
+/// Appends the texture coordinates of those meshes that have them; older files have none.
 void put_uvs(ByteWriter& out, std::span<const std::shared_ptr<const Mesh>> meshes);
 void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes);
-/// Throws InputError unless the mesh does with so many paints.
-void check_looks(const Mesh& mesh, const std::string& file, std::size_t paints);
+/// Throws InputError if the mesh uses an appearance beyond `paints`.
+void check_appearances(const Mesh& mesh, const std::string& file, std::size_t paints);
 
-/// Each picture once.
-void put(ByteWriter& out, const std::vector<Paint>& paints);
-std::vector<Paint> take_paints(ByteReader& in, const std::string& file);
+/// Appends the appearance of mesh files' faces; each image is stored once.
+void put(ByteWriter& out, const std::vector<Appearance>& paints);
+std::vector<Appearance> take_paints(ByteReader& in, const std::string& file);
 
-/// The least bytes that a mesh takes.
-inline constexpr std::size_t kLeastMeshBytes = 36;
+/// Least number of bytes that a stored mesh takes.
+inline constexpr std::size_t kMinMeshBytes = 36;
 
 }  // namespace sunder

@@ -5,7 +5,7 @@
 namespace sunder {
 
 FramesAhead::FramesAhead(FrameSource& source) : source_(source) {
-  thread_ = std::thread([this] { work(); });
+  thread_ = std::thread([this] { prefetch(); });
 }
 
 FramesAhead::~FramesAhead() {
@@ -19,22 +19,22 @@ FramesAhead::~FramesAhead() {
 
 FramePtr FramesAhead::next() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return ended_ || !made_.empty(); });
-  if (made_.empty()) {
+  changed_.wait(lock, [&] { return ended_ || !ready_.empty(); });
+  if (ready_.empty()) {
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     return nullptr;
   }
-  FramePtr frame = std::move(made_.front());
-  made_.pop_front();
+  FramePtr frame = std::move(ready_.front());
+  ready_.pop_front();
   changed_.notify_all();
   return frame;
 }
 
-void FramesAhead::work() {
+void FramesAhead::prefetch() {
   for (;;) {
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return stopped_ || made_.size() < kMostWaiting; });
+      changed_.wait(lock, [&] { return stopped_ || ready_.size() < kMaxPrefetched; });
       if (stopped_) return;
     }
     FramePtr frame;
@@ -46,7 +46,7 @@ void FramesAhead::work() {
     }
     const std::lock_guard lock(mutex_);
     if (frame) {
-      made_.push_back(std::move(frame));
+      ready_.push_back(std::move(frame));
     } else {
       failure_ = failure;
       ended_ = true;

@@ -1,4 +1,4 @@
-// The frames of a source, made while those before them are in use.
+// Prefetching of frames on another thread.
 #pragma once
 
 #include <condition_variable>
@@ -12,29 +12,28 @@
 
 namespace sunder {
 
-/// A source that asks another, on a thread of its own, for a few frames more than it has been asked
-/// for: those are made while the last one is drawn. Frames, their order, and what is thrown where,
-/// are the other's.
+/// A source that prefetches frames of another source on a thread of its own, while the caller draws
+/// the last one. Frames, their order and exceptions are those of the other source.
 class FramesAhead final : public FrameSource {
  public:
-  /// Nobody else asks `source` from now on, until this is gone.
+  /// Starts the thread. Nothing else may use `source` until this object is destroyed.
   explicit FramesAhead(FrameSource& source);
-  /// Waits for the frame under way, if there is one.
+  /// Waits until the frame in progress is complete.
   ~FramesAhead() override;
   FramePtr next() override;
 
  private:
-  static constexpr std::size_t kMostWaiting = 2;  ///< Frames.
+  static constexpr std::size_t kMaxPrefetched = 2;  ///< Largest number of prefetched frames.
 
-  void work();
+  void prefetch();
 
   FrameSource& source_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<FramePtr> made_;
-  bool stopped_ = false;        ///< Nobody wants more.
-  bool ended_ = false;          ///< There are no more,
-  std::exception_ptr failure_;  ///< or this came in place of one.
+  std::deque<FramePtr> ready_;
+  bool stopped_ = false;        ///< True: the thread must end.
+  bool ended_ = false;          ///< True: the source has no more frames, or has thrown.
+  std::exception_ptr failure_;  ///< Exception that ended the source, if any.
   std::thread thread_;
 };
 

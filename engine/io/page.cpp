@@ -7,7 +7,7 @@
 namespace sunder {
 namespace {
 
-// Colours are the reader's own; what is ours shows on light and on dark.
+// The browser's colours are kept; the added ones are visible on light and dark backgrounds.
 constexpr const char* kPageStyle = R"(
   :root { color-scheme: light dark; }
   body { font: 15px/1.4 sans-serif; margin: 2em; }

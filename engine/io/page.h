@@ -1,5 +1,4 @@
-// Pages of a report: HTML that needs nothing beside it, and reads as well on a dark screen. Data
-// in, text out; plots to go on them are in plot.h.
+// HTML pages of reports, self-contained, for light and dark screens; plots for them are in plot.h.
 #pragma once
 
 #include <cstdint>
@@ -9,32 +8,32 @@
 
 namespace sunder {
 
-/// Text as it may stand between tags and in quoted attributes, of HTML and of SVG.
+/// Returns text with the special characters of HTML and SVG escaped.
 std::string escaped(const std::string& text);
 
-/// A number with so many significant digits, without zeros at the end; ∞ is a sign.
+/// Returns a number with `digits` significant digits and no trailing zeros; infinity is "∞".
 std::string rounded(double value, int digits = 3);
 
-/// An image tag with a file of that type ("image/png") inside it.
+/// Returns an image tag that contains a file of the given type ("image/png").
 std::string embedded_image(const std::string& type, std::span<const std::uint8_t> bytes);
 
-/// Text in a table, not escaped yet.
+/// A table cell, not escaped yet.
 struct Cell {
   std::string text;
-  bool over = false;      ///< Marked: it is beyond what it should be.
-  std::string note = {};  ///< Shown to who points at it.
+  bool over = false;      ///< True: marked as exceeding a limit.
+  std::string note = {};  ///< Tooltip.
 };
 
-/// A table with a row of headings; a first cell that ends a row early leaves the rest empty.
+/// Returns a table with a row of headings; missing cells at the end of a row are empty.
 std::string html_table(const std::vector<std::string>& head,
                        std::span<const std::vector<Cell>> rows);
 
-/// What a page is made of; all but the title is HTML, or CSS and script, as it is to stand there.
+/// Content of a page. All but the title is inserted unescaped: HTML, CSS and script.
 struct Page {
   std::string title;
   std::string body;
-  std::string style = {};   ///< Beside that of all pages.
-  std::string script = {};  ///< Run once the body is there.
+  std::string style = {};   ///< CSS in addition to the common style.
+  std::string script = {};  ///< Runs after the body is loaded.
 };
 std::string html_page(const Page& page);
 

@@ -1,5 +1,5 @@
-// Debris and dust as they are hashed and stored: whole numbers, as fine as the eye needs. Coding
-// what was decoded gives the same code, so a stored frame has the hash of the frame it was.
+// Integer codes of debris and dust for hashing and storage, at visually sufficient precision.
+// Encoding a decoded particle gives its code again, so a stored frame has the hash of the original.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace sunder {
 
-/// Numbers that code one particle: position, rotation, radius, what it is.
+/// Integers per particle: position, rotation, radius, material, and variant or opacity.
 inline constexpr std::size_t kParticleNumbers = 10;
 using ParticleCode = std::array<std::int32_t, kParticleNumbers>;
 

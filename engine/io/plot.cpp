@@ -1,5 +1,4 @@
-// Read first: svg_curves(). A Scale puts values on an axis, a Canvas what is drawn into the
-// picture.
+// Begin with svg_curves(). A Scale maps values to positions, a Canvas collects the elements.
 #include "engine/io/plot.h"
 
 #include <algorithm>
@@ -12,55 +11,55 @@
 namespace sunder {
 namespace {
 
-constexpr double kPlotWidth = 720, kPlotHeight = 460;  // of the picture
+constexpr double kPlotWidth = 720, kPlotHeight = 460;  // size of the picture
 constexpr double kLeft = 70, kRight = 20, kTop = 60, kBottom = 60;
 constexpr double kTick = 5, kDot = 4.5;
-constexpr double kLegend = 42, kLegendGap = 16;      // its line, above the plot; between two names
-constexpr double kLetter = 6.6, kLetterHeight = 12;  // about, of words
+constexpr double kLegendY = 42, kLegendGap = 16;     // vertical position, and gap between entries
+constexpr double kLetter = 6.6, kLetterHeight = 12;  // approximate size of a letter
 
-// Told apart by who sees no red or no green as well (after Okabe and Ito), on light and on dark.
+// Distinguishable with red-green colour blindness (Okabe and Ito), on light and dark backgrounds.
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                    "#e69f00", "#56b4e9", "#888888", "#a6761d"};
 constexpr const char* kPlotStyle =
     "<style>.plot { font: 12px sans-serif; color: #444; } .plot text { fill: currentColor; }"
     " @media (prefers-color-scheme: dark) { .plot { color: #bbb; } }</style>\n";
 
-/// A length in the picture.
+/// Formats a length in the picture.
 std::string number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.2f", value);
   return text;
 }
 
-/// From values to places between `low` and `high` in the picture.
+/// Maps values to positions between `low` and `high` in the picture.
 class Scale {
  public:
   Scale(bool logarithmic, std::span<const double> values, double low, double high)
       : logarithmic_(logarithmic), low_(low), high_(high) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const double value : values) {
-      if (!shows(value)) continue;
-      least = std::min(least, measure(value));
-      most = std::max(most, measure(value));
+      if (!is_drawable(value)) continue;
+      least = std::min(least, to_linear(value));
+      most = std::max(most, to_linear(value));
     }
     if (least > most) least = 0, most = 1;
-    const double room = least == most ? 0.5 : 0.06 * (most - least);
-    first_ = least - room;
-    last_ = most + room;
+    const double margin = least == most ? 0.5 : 0.06 * (most - least);
+    first_ = least - margin;
+    last_ = most + margin;
   }
 
-  /// A linear axis, of what is not negative.
+  /// Starts a linear axis of non-negative values at 0.
   void begin_at_zero() {
     if (!logarithmic_) first_ = 0;
   }
 
   double place(double value) const {
-    const double share =
-        shows(value) ? (measure(value) - first_) / (last_ - first_) : (value > 0 ? 1.0 : 0.0);
+    const double share = is_drawable(value) ? (to_linear(value) - first_) / (last_ - first_)
+                                            : (value > 0 ? 1.0 : 0.0);
     return low_ + std::clamp(share, 0.0, 1.0) * (high_ - low_);
   }
 
-  /// Round values on the axis: powers of ten with their doubles and fives, or even steps.
+  /// Returns round values on the axis: powers of ten with their doubles and fives, or even steps.
   std::vector<double> ticks() const {
     const double decades = last_ - first_;
     if (!logarithmic_) return steps(first_, last_);
@@ -70,15 +69,17 @@ class Scale {
       for (const double digit : {1.0, 2.0, 5.0}) {
         if (digit > 1 && decades > 3) break;
         const double value = digit * std::pow(10, power);
-        if (measure(value) >= first_ && measure(value) <= last_) values.push_back(value);
+        if (to_linear(value) >= first_ && to_linear(value) <= last_) values.push_back(value);
       }
     }
     return values;
   }
 
  private:
-  bool shows(double value) const { return std::isfinite(value) && (!logarithmic_ || value > 0); }
-  double measure(double value) const { return logarithmic_ ? std::log10(value) : value; }
+  bool is_drawable(double value) const {
+    return std::isfinite(value) && (!logarithmic_ || value > 0);
+  }
+  double to_linear(double value) const { return logarithmic_ ? std::log10(value) : value; }
   static std::vector<double> steps(double first, double last) {
     const double rough = (last - first) / 8, power = std::pow(10, std::floor(std::log10(rough)));
     const double step = power * (rough / power < 2 ? 2 : rough / power < 5 ? 5 : 10);
@@ -94,7 +95,7 @@ class Scale {
   double first_ = 0, last_ = 1;
 };
 
-/// The picture so far.
+/// The SVG elements so far.
 class Canvas {
  public:
   struct Place {
@@ -135,7 +136,7 @@ class Canvas {
               number(width) + "\" height=\"" + number(height) + "\" fill=\"" + color + "\"",
           "rect", note);
   }
-  /// `anchor` is start, middle or end.
+  /// Adds text; `anchor` is start, middle or end.
   void text(const Place& at, const std::string& words, const char* anchor,
             const std::string& attributes = "") {
     if (words.empty()) return;
@@ -168,7 +169,7 @@ class Canvas {
   std::string svg_;
 };
 
-/// Words beside dots, where they cover neither each other nor a dot, if there is such a place.
+/// Places labels next to dots so that they overlap neither each other nor a dot, if possible.
 class Labels {
  public:
   void keep_clear(const Canvas::Place& dot) {
@@ -240,8 +241,8 @@ std::string svg_curves(const Axes& axes, std::span<const Curve> curves) {
     }
     if (curve.line) canvas.line(places, color, 1.5);
     if (curve.name.empty()) continue;
-    canvas.box({legend, kLegend - 9}, 10, 10, color, "");
-    canvas.text({legend + kLegendGap, kLegend}, curve.name, "start");
+    canvas.box({legend, kLegendY - 9}, 10, 10, color, "");
+    canvas.text({legend + kLegendGap, kLegendY}, curve.name, "start");
     legend += 2 * kLegendGap + kLetter * static_cast<double>(curve.name.size());
   }
   for (const Curve& curve : curves) {

@@ -1,5 +1,5 @@
-// Plots as SVG: what is drawn is said as data, and comes out as a picture that stands alone in a
-// file or within a page. Axes and words take a grey that shows on light and on dark.
+// Plots as SVG, from data, for a file of their own or within a page. Axes and text are grey tones
+// visible on light and dark backgrounds.
 #pragma once
 
 #include <span>
@@ -18,30 +18,29 @@ struct Axes {
   Axis x, y;
 };
 
-/// A point of a curve. What is not finite, or not positive on a logarithmic axis, is drawn at that
-/// end of the axis.
+/// A point of a curve. Values that cannot be shown on the axis are drawn at its end.
 struct PlotPoint {
   double x = 0, y = 0;
-  std::string label = {};  ///< Written beside it; none if empty.
-  std::string note = {};   ///< Shown to who points at it.
+  std::string label = {};  ///< Text beside the point; empty: none.
+  std::string note = {};   ///< Tooltip.
 };
 
 /// Points of one colour, in order.
 struct Curve {
-  std::string name;  ///< In the legend; none if empty.
+  std::string name;  ///< Legend text; empty: none.
   std::vector<PlotPoint> points;
-  bool line = true;   ///< Through the points.
-  bool dots = false;  ///< At the points.
+  bool line = true;   ///< Draws a line through the points.
+  bool dots = false;  ///< Draws a dot at each point.
 };
 
-/// Curves over common axes: a scatter, a front, a series of times.
+/// Returns a plot of curves with common axes.
 std::string svg_curves(const Axes& axes, std::span<const Curve> curves);
 
 struct Bar {
   std::string name;
   double value = 0;
 };
-/// A bar for each, from zero up: counts of a histogram, or figures to compare.
+/// Returns a bar chart, with bars from zero.
 std::string svg_bars(const Axes& axes, std::span<const Bar> bars);
 
 }  // namespace sunder

@@ -11,7 +11,7 @@
 namespace sunder {
 namespace {
 
-/// A body as hashed: 17 numbers without padding.
+/// State of a body as it is hashed: 15 numbers without padding.
 struct Record {
   std::uint64_t key;
   double pose[7];
@@ -50,7 +50,7 @@ std::uint64_t hash_state(const Frame& frame) {
   for (const FrameBody& body : frame.bodies) records.push_back(record(body));
   std::uint64_t hash =
       XXH3_64bits_withSeed(records.data(), records.size() * sizeof(Record), frame.index);
-  // A run without particles keeps the hash that its bodies alone have.
+  // Without particles the hash is that of the bodies alone.
   if (!frame.debris.empty()) hash = hash_codes(frame.debris, hash);
   if (!frame.dust.empty()) hash = hash_codes(frame.dust, hash);
   return hash;

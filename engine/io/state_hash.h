@@ -1,4 +1,4 @@
-// A hash of everything simulated: two runs are the same iff their hashes are.
+// Hash of the simulated state: equal for two runs if and only if they are the same.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,12 @@
 
 namespace sunder {
 
-/// Hash (XXH3) of the frame's bodies (key, pose, velocities, sleep, bit for bit), and of its debris
-/// and dust as takes store them. That of a frame from a take is the one it was recorded with.
+/// Returns the XXH3 hash of the frame's bodies (key, pose, velocities, sleep, bit for bit), and of
+/// its debris and dust as recordings store them. A frame from a recording returns the hash that it
+/// was recorded with.
 std::uint64_t hash_state(const Frame& frame);
 
-/// Hash of one body's exact state.
+/// Returns the hash of one body's exact state.
 std::uint64_t hash_body(const FrameBody& body);
 
 }  // namespace sunder

@@ -18,14 +18,15 @@ using Json = nlohmann::ordered_json;
 
 struct Statistics::Series {
   RunInfo info;
-  std::vector<FrameReport> reports;  ///< Of frames 1, 2, …; without penetrations.
+  std::vector<FrameReport> reports;  ///< Reports of frames 1, 2, …; without penetrations.
   FrameReport first, last;
   std::vector<double> fracture_ms;
-  std::vector<std::size_t> first_fracture;  ///< Of `fracture_ms`, of every frame in `reports`.
+  /// For each element of `reports`, index of its first element of `fracture_ms`.
+  std::vector<std::size_t> first_fracture;
   std::uint64_t pieces = 0;
   std::uint64_t frames = 0;
 
-  /// Of every frame: wall time, or processor time.
+  /// Selects wall time or processor time.
   using Clock = double (FrameReport::*)[kStages];
   std::vector<double> stage_ms(int stage, Clock clock = &FrameReport::stage_ms) const {
     std::vector<double> values;
@@ -43,7 +44,7 @@ struct Statistics::Series {
   std::vector<double> penetrations() const {
     return {last.penetrations_m.begin(), last.penetrations_m.end()};
   }
-  /// The times of the breaks of one of `reports`.
+  /// Returns the fracture times of one element of `reports`.
   std::span<const double> fractures(std::size_t report) const {
     const std::size_t end =
         report + 1 < first_fracture.size() ? first_fracture[report + 1] : fracture_ms.size();
@@ -54,17 +55,17 @@ struct Statistics::Series {
     for (const FrameReport& report : reports) most = std::max(most, report.*figure);
     return most;
   }
-  /// Of all frames: flows and residual, and the sums of their sizes.
+  /// Totals of all frames: flows and residual, and sums of absolute values.
   struct Energy {
     EnergyFlows flows;
-    double residual_J = 0, off_J = 0, moved_J = 0;
+    double residual_J = 0, abs_residual_J = 0, moved_J = 0;
   };
   Energy energy() const {
     Energy all;
     for (const FrameReport& report : reports) {
       all.flows += report.energy;
       all.residual_J += report.energy_residual_J;
-      all.off_J += std::abs(report.energy_residual_J);
+      all.abs_residual_J += std::abs(report.energy_residual_J);
       all.moved_J += report.energy.moved();
     }
     return all;
@@ -81,7 +82,7 @@ namespace {
 
 constexpr std::size_t kBusiestFrames = 120;  // two seconds
 
-/// p95 of the two seconds whose p95 is largest.
+/// Returns the 95th percentile of the two seconds for which it is largest.
 double busiest_p95(const std::vector<double>& frame_ms) {
   if (frame_ms.size() <= kBusiestFrames) return quantile(frame_ms, 0.95);
   double worst = 0;
@@ -114,7 +115,7 @@ Counts peak_of(const std::vector<FrameReport>& reports) {
   return peak;
 }
 
-/// By stage and name: how much of what is counted, in how long, and how long each took.
+/// Returns count, time, and time per item of work, by stage and name.
 Json work_json(std::span<const WorkItem> items) {
   Json json = Json::object();
   for (const WorkItem& item : items) {
@@ -127,7 +128,7 @@ Json work_json(std::span<const WorkItem> items) {
   return json;
 }
 
-/// How long frames, or a stage of them, take: p50_ms and so on, each name after `prefix`.
+/// Adds p50_ms and so on for a series of times, with `prefix` before each name.
 void add_times(Json& json, const std::string& prefix, const std::vector<double>& ms) {
   json[prefix + "p50_ms"] = quantile(ms, 0.5);
   json[prefix + "p95_ms"] = quantile(ms, 0.95);
@@ -146,7 +147,7 @@ Json energy_json(const EnergyFlows& energy, double residual_J) {
   return json;
 }
 
-/// Of one frame; times only where something broke.
+/// Returns the fractures of one frame; times only if there are any.
 Json fractures_json(std::span<const double> ms) {
   Json json{{"events", ms.size()}};
   if (ms.empty()) return json;
@@ -178,7 +179,7 @@ Json frame_json(const FrameReport& report, double ms, std::span<const double> fr
 
 }  // namespace
 
-std::string left_whole_warning(std::uint64_t convexes, double volume_m3, double of_m3) {
+std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, double of_m3) {
   return std::to_string(convexes) + (convexes == 1 ? " convex was" : " convexes were") +
          printed(" left whole, %.3g %% of the volume, because ", 100 * ratio(volume_m3, of_m3)) +
          (convexes == 1 ? "its" : "their") + " parts did not add up";
@@ -273,13 +274,13 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["penetration_m"] = {
       {"p50", quantile(depth, 0.5)}, {"p99", quantile(depth, 0.99)}, {"max", quantile(depth, 1)}};
   if (s.info.accuracy.error_target_m > 0) json["error_target_m"] = s.info.accuracy.error_target_m;
-  const auto [flows, residual_J, off_J, moved_J] = s.energy();
+  const auto [flows, residual_J, abs_residual_J, moved_J] = s.energy();
   json["energy_J"] = {{"kinetic", s.last.kinetic_J},
                       {"potential", s.last.potential_J},
                       {"plastic", s.last.plastic_J},
                       {"moved", moved_J}};
   json["energy_flows_J"] = energy_json(flows, residual_J);
-  json["energy_residual"] = ratio(off_J, moved_J);
+  json["energy_residual"] = ratio(abs_residual_J, moved_J);
   json["momentum_residual"] = s.worst(&FrameReport::momentum_residual);
   json["friction_excess"] =
       ratio(s.sum(&FrameReport::friction_excess_Ns), s.sum(&FrameReport::friction_allowed_Ns));
@@ -291,7 +292,7 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["warnings"] = s.info.warnings;
   if (const std::uint32_t failed = s.sum(&FrameReport::failed); failed > 0) {
     json["warnings"].push_back(
-        left_whole_warning(failed, s.sum(&FrameReport::failed_m3), s.first.volume_m3));
+        uncut_convexes_warning(failed, s.sum(&FrameReport::failed_m3), s.first.volume_m3));
   }
   if (const std::string limits = limits_warning(); !limits.empty())
     json["warnings"].push_back(limits);

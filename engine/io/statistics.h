@@ -1,4 +1,4 @@
-// What a run comes to: a hash of all its states, and its figures (stage timings, counts, energy,
+// Results of a run: a hash of all its states, and statistics (stage timings, counts, energy,
 // penetration) as a table and as JSON.
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace sunder {
 
-/// Keeps the hash of every frame it takes.
+/// Collects the hash of every frame.
 class StateHash final : public FrameSink {
  public:
   void take(const FramePtr& frame) override;
-  /// 16 hexadecimal digits, over the first so many frames, or all so far if there are fewer.
+  /// Returns 16 hexadecimal digits: the hash over the first `frames` frames, at most all of them.
   std::string hex(std::size_t frames = SIZE_MAX) const;
   const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
 
@@ -25,43 +25,43 @@ class StateHash final : public FrameSink {
   std::vector<std::uint64_t> per_frame_;
 };
 
-/// What the figures are of; goes into the JSON as it is.
+/// Description of a run, which is copied into the JSON.
 struct RunInfo {
   std::string scene;
   std::string preset;
   int threads = 1;
   Accuracy accuracy;
-  std::map<std::string, std::string> modelled;  ///< feature -> "on" | "off" | "off: why"
-  SolverDials solver;                           ///< `lanes` as used.
+  std::map<std::string, std::string> modelled;  ///< feature -> "on" | "off" | "off: reason"
+  SolverOptions solver;                         ///< `lanes` is the number in use.
   std::vector<std::string> warnings = {};
 };
 
-/// What to warn of when breaks have left convexes whole because their parts did not add up: how
-/// many, and what share of the volume of all solids that is.
-std::string left_whole_warning(std::uint64_t convexes, double volume_m3, double of_m3);
+/// Returns a warning that breaks left `convexes` whole because their parts did not sum to their
+/// volume; `volume_m3` is their volume, `of_m3` that of all solids.
+std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, double of_m3);
 
-/// Warning of limits of the scene that were reached that often; empty for never.
+/// Returns a warning that limits of the scene were reached `hits` times; empty if 0.
 std::string limits_warning(std::uint32_t hits);
 
-/// The processor this runs on, as it calls itself.
+/// Returns the processor's model name.
 std::string cpu_name();
 
-/// The q-th quantile (0..1) by the nearest-rank rule; 0 of nothing.
+/// Returns the q-th quantile (0 to 1) by the nearest-rank rule; 0 without values.
 double quantile(std::vector<double> values, double q);
 
-/// Collects the reports of every frame; timings leave out the first, which is no simulated time.
+/// Collects the reports of all frames. Timings leave out the first frame, which simulates no time.
 class Statistics final : public FrameSink {
  public:
   explicit Statistics(RunInfo info);
   ~Statistics() override;
   void take(const FramePtr& frame) override;
 
-  /// What to warn of if a limit of the scene was reached; else empty.
+  /// Returns a warning if a limit of the scene was reached; else an empty string.
   std::string limits_warning() const;
-  /// The `simulate` and `bench` object (README, "JSON"), ending with a newline. An empty
-  /// `state_hash` is left out; `per_frame` adds an array with an object a frame.
+  /// Returns the `simulate` and `bench` object (README, "JSON") with a final newline. An empty
+  /// `state_hash` is omitted; `per_frame` adds an array with an object per frame.
   std::string json(const std::string& state_hash, bool per_frame) const;
-  /// The stage timing table and the final counts, for people.
+  /// Returns a readable table of stage timings, and the final counts.
   std::string table() const;
 
  private:

@@ -1,4 +1,4 @@
-// A trace as a file, to be looked at in a browser.
+// Trace files for browsers.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace sunder {
 
-/// The spans in the Trace Event Format (JSON), which Perfetto (ui.perfetto.dev) and
-/// chrome://tracing open; ends with a newline.
+/// Returns spans in the Trace Event Format (JSON), for Perfetto (ui.perfetto.dev) and
+/// chrome://tracing, with a final newline.
 std::string format_trace(std::span<const TracedSpan> spans);
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// How bodies move, as arrays: what a physics shows of all of them at once.
+// State of all bodies, as arrays that the physics shows to other modules.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace sunder {
 struct BodyTag;
 using BodyId = Id<BodyTag>;
 
-/// How a solid moves: the velocity of its point p is velocity_W + angular_velocity_W × (p − at).
+/// Velocity field of a rigid body: velocity_W + angular_velocity_W × (p − at_W) at point p.
 struct VelocityField {
   Vec3 at_W = Vec3::Zero();
   Vec3 velocity_W = Vec3::Zero();
@@ -24,7 +24,7 @@ struct VelocityField {
   }
 };
 
-/// How one body moves.
+/// Pose and velocities of one body.
 struct BodyState {
   Pose X_WB;
   Vec3 velocity_W = Vec3::Zero();
@@ -34,17 +34,17 @@ struct BodyState {
   VelocityField field() const { return {X_WB.position, velocity_W, angular_velocity_W}; }
 };
 
-/// What a body is to the physics.
+/// Kind and activity of a body.
 enum class BodyMode : std::uint8_t {
   kAbsent,     ///< A free slot.
   kStatic,     ///< Never moves; infinite mass.
-  kKinematic,  ///< Moves as it is told; infinite mass.
+  kKinematic,  ///< Moves at prescribed velocities; infinite mass.
   kAwake,
   kAsleep,
-  kFrozen,  ///< Was not finite; kept where it last was, as if static.
+  kFrozen,  ///< Its state was not finite; stays at its last finite pose, as if static.
 };
 
-/// How all bodies move: arrays by the slots of their ids, which the physics owns. Read only.
+/// State of all bodies: read-only arrays indexed by BodyId::slot, owned by the physics.
 struct BodyStates {
   std::span<const std::uint32_t> generation;
   std::span<const BodyMode> mode;
@@ -57,7 +57,7 @@ struct BodyStates {
     return id.slot < mode.size() && generation[id.slot] == id.generation &&
            mode[id.slot] != BodyMode::kAbsent;
   }
-  /// Of a body that is there.
+  /// Returns the state of an existing body.
   BodyState operator[](BodyId id) const {
     SUNDER_CHECK(holds(id));
     return {{position_W[id.slot], rotation_WB[id.slot]},
@@ -67,7 +67,7 @@ struct BodyStates {
   }
 };
 
-/// The arrays, for a physics that keeps its bodies in another form.
+/// Storage of BodyStates, for a physics that keeps its bodies in another form.
 class BodyTable {
  public:
   void set(BodyId id, BodyMode mode, const BodyState& state) {

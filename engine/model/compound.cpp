@@ -11,9 +11,10 @@
 namespace sunder {
 namespace {
 
-constexpr double kThin = 0.25;  // thickness over the cube root of the volume, of plates; at most
+// largest thickness of thin convexes over the cube root of their volume
+constexpr double kMaxThinness = 0.25;
 
-/// Calls `visit` with every convex, and every ghost that weighs, and its sign.
+/// Calls visit(convex, sign) for every convex, and for every ghost that counts in sums.
 template <class Visit>
 void for_each_solid(const Compound& compound, const Visit& visit) {
   for (const ConvexPtr& convex : compound.convexes) visit(*convex, 1.0);
@@ -46,7 +47,7 @@ double mean_thickness_m(const Convex& convex) {
 }
 
 bool is_thin(const Convex& convex) {
-  return mean_thickness_m(convex) < kThin * std::cbrt(convex.solid.volume_m3);
+  return mean_thickness_m(convex) < kMaxThinness * std::cbrt(convex.solid.volume_m3);
 }
 
 bool Compound::is_anchored() const {
@@ -65,8 +66,8 @@ std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const B
   return kept & anchored;
 }
 
-Weight weigh(const Compound& compound, std::span<const Material> materials) {
-  Weight weight;
+CompoundMass mass_of(const Compound& compound, std::span<const Material> materials) {
+  CompoundMass weight;
   Vec3 moment = Vec3::Zero();
   for_each_solid(compound, [&](const Convex& convex, double sign) {
     SUNDER_CHECK(convex.material.value < materials.size());
@@ -83,7 +84,7 @@ Weight weigh(const Compound& compound, std::span<const Material> materials) {
     weight.inertia_R += density * convex.solid.inertia() +
                         mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
   });
-  weight.inertia_R = spinnable(weight.inertia_R);
+  weight.inertia_R = bounded_inertia(weight.inertia_R);
   return weight;
 }
 
@@ -100,7 +101,7 @@ Box bounds(const Compound& compound) {
   return box;
 }
 
-double distance_outside(const Convex& convex, const Vec3& point_R) {
+double distance_to(const Convex& convex, const Vec3& point_R) {
   double farthest = 0;
   for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces)
     farthest = std::max(farthest, face.plane.distance(point_R));

@@ -1,4 +1,4 @@
-// Compounds: convexes that move as one, and which of them touch (paper 3.1).
+// Compounds: convexes that move as one body, and the bonds between them (paper 3.1).
 #pragma once
 
 #include <cstdint>
@@ -13,100 +13,100 @@ namespace sunder {
 
 struct PolygonMesh;
 
-/// One convex of a compound: immutable and shared, so that what a break does not touch stays the
-/// same object, bit for bit. A surface convex owns a piece of visual mesh inside its polyhedron; an
-/// internal convex is seen as the polyhedron that it is (paper 3.3).
+/// One convex of a compound. Immutable and shared: a break keeps the convexes it does not cut, bit
+/// for bit. A surface convex has a piece of visual mesh inside its polyhedron; an internal convex
+/// is drawn as its polyhedron (paper 3.3).
 struct Convex {
-  ConvexPolyhedron polyhedron;                ///< What collides, and what neighbours touch.
-  std::shared_ptr<const PolygonMesh> visual;  ///< Watertight; null: an internal convex.
+  ConvexPolyhedron polyhedron;  ///< Collision geometry, and the faces that touch neighbours.
+  std::shared_ptr<const PolygonMesh> visual;  ///< Watertight; null for an internal convex.
   MaterialIndex material;
-  MassProperties solid;  ///< Of `visual` if there is one, else of `polyhedron`; unit density.
-  Box box;               ///< Of `polyhedron`.
-  /// Where the rest frame is now that it was painted in: a solid that is bent has a new one.
+  /// Mass properties at unit density, of `visual` if set, else of `polyhedron`.
+  MassProperties solid;
+  Box box;  ///< Bounding box of `polyhedron`.
+  /// Pose of the texture frame T in R: R as it was before the solid was bent.
   Pose X_RT;
 
   bool is_internal() const { return !visual; }
 };
 using ConvexPtr = std::shared_ptr<const Convex>;
 
-/// A convex with its mass properties and box worked out.
+/// Makes a convex and computes its mass properties and box.
 ConvexPtr make_convex(ConvexPolyhedron polyhedron, MaterialIndex material,
                       std::shared_ptr<const PolygonMesh> visual = nullptr, const Pose& X_RT = {});
 
-/// Twice the volume over the surface: of a plate or shell, how thick it is.
+/// Returns twice the volume over the surface area: the thickness of a plate or shell.
 double mean_thickness_m(const Convex& convex);
-/// Returns true if a convex is a plate or shell, which bends: it is more than about four times as
-/// long and wide as thick.
+/// Returns true for plates and shells, which bend: four times as long and wide as thick, about.
 bool is_thin(const Convex& convex);
 
-/// Two convexes of a compound that share part of a plane (property (c) of paper 3.1).
+/// A pair of convexes of a compound with coplanar touching faces (property (c) of paper 3.1).
 struct Bond {
   std::uint32_t a = 0, b = 0;            ///< Convexes, a < b: indices, or slots of a structure.
-  std::uint32_t face_a = 0, face_b = 0;  ///< The faces that touch.
-  double area_m2 = 0;                    ///< Of the overlap.
+  std::uint32_t face_a = 0, face_b = 0;  ///< Indices of the touching faces.
+  double area_m2 = 0;                    ///< Area of the overlap.
 };
 
-/// Where convexes of a compound overlap (paper 4.3). It holds them together, and takes part in sums
-/// of volume and mass with its sign, so that they are those of the union (inclusion-exclusion); it
-/// is neither drawn nor collided. With sign −1 it is the paper's convex of negative volume; its
-/// faces are stored as any convex's, outward.
+/// The overlap of several convexes of a compound (paper 4.3). A ghost connects its convexes. Volume
+/// and mass count it with its sign, so that sums are those of the union (inclusion-exclusion). It
+/// is neither drawn nor collided. A ghost of sign −1 is the paper's convex of negative volume; its
+/// faces point outward as those of any convex.
 struct Ghost {
-  ConvexPtr convex;  ///< What they have in common.
-  /// Convexes, ascending: indices, or slots of a structure. Two or more as made; breaks may leave
-  /// one.
+  ConvexPtr convex;  ///< The intersection.
+  /// Ascending; indices, or slots of a structure. Two or more when made; a break may leave one.
   std::vector<std::uint32_t> of;
-  /// −1 for two convexes, +1 for three, −1 for four; 0 holds together and weighs nothing: one of
-  /// its convexes is a surface convex, whose visual mesh need not reach into the overlap.
+  /// −1 for two convexes, +1 for three, −1 for four. 0: the ghost connects, but does not count in
+  /// sums, because one of its convexes is a surface convex, whose visual mesh may not reach into
+  /// the overlap.
   std::int8_t sign = -1;
 };
 
-/// One side of a convex's box (axis 0 to 2, low or high) as a bit of Compound::anchored. Below, the
-/// low side of y, is 1.
+/// Returns the bit in Compound::anchored of one side of a convex's box (axis 0 to 2, low or high).
+/// The low side of y, from below, is bit 1.
 constexpr std::uint8_t anchor_side(int axis, bool high) {
   return static_cast<std::uint8_t>(1u << (2 * ((axis + 2) % 3) + (high ? 1 : 0)));
 }
-/// By every side.
-inline constexpr std::uint8_t kAnchoredAllRound = 0x3f;
-/// The sides of `parent` by which the world holds it that a part of it still reaches.
+/// Anchored by all six sides.
+inline constexpr std::uint8_t kAnchoredAllSides = 0x3f;
+/// Returns the anchored sides of `parent` that a part of it still reaches.
 std::uint8_t inherited_anchors(std::uint8_t anchored, const Box& parent, const Box& part);
 
-/// Convexes that move as one, in the rest frame R of the solid they were cut from.
+/// Convexes that move as one body, in the rest frame R of the solid they were cut from.
 struct Compound {
   std::vector<ConvexPtr> convexes;
-  /// Per convex: the sides of its box by which the world holds it (anchor_side()), 0 where free. A
-  /// part of it stays anchored by those of them that it still reaches.
+  /// For each convex, the sides of its box that are fixed to the world (anchor_side()); 0: none.
+  /// Parts of a convex inherit the sides that they still reach.
   std::vector<std::uint8_t> anchored;
   std::vector<Bond> bonds;    ///< Sorted by (a, b, face_a, face_b).
-  std::vector<Ghost> ghosts;  ///< Sorted by `of`; empty where nothing overlaps.
+  std::vector<Ghost> ghosts;  ///< Sorted by `of`; empty if nothing overlaps.
 
-  /// Whether the world holds any of its convexes.
+  /// True if any convex is anchored.
   bool is_anchored() const;
 };
 
-/// A convex on its way into a compound.
+/// Input for one convex of a compound.
 struct Part {
   ConvexPolyhedron polyhedron;
   MaterialIndex material;
-  std::uint8_t anchored = 0;  ///< As in Compound: `true` is anchored from below.
+  std::uint8_t anchored = 0;  ///< As in Compound::anchored; 1 (`true`) is anchored from below.
   std::shared_ptr<const PolygonMesh> visual = nullptr;  ///< As in Convex.
 };
 
 /// Mass, centre of mass and inertia about it, in the rest frame; overlaps count once.
-struct Weight {
+struct CompoundMass {
   double mass_kg = 0;
   Vec3 com_R = Vec3::Zero();
-  Mat3 inertia_R = Mat3::Zero();  ///< kg·m²; spinnable().
+  Mat3 inertia_R = Mat3::Zero();  ///< In kg m²; adjusted by bounded_inertia().
 };
-/// Sums over the convexes, less what ghosts say is counted twice; `materials` by MaterialIndex.
-Weight weigh(const Compound& compound, std::span<const Material> materials);
-/// Of the union of the convexes, in m³.
+/// Returns the sum over convexes and ghosts; `materials` are by MaterialIndex.
+CompoundMass mass_of(const Compound& compound, std::span<const Material> materials);
+/// Returns the volume of the union of the convexes, in m³.
 double volume(const Compound& compound);
-/// The least box around its convexes.
+/// Returns the bounding box of all convexes.
 Box bounds(const Compound& compound);
-/// How far a point is beyond the farthest of a convex's faces; 0 inside.
-double distance_outside(const Convex& convex, const Vec3& point_R);
+/// Returns the largest signed distance from a point to a convex's face planes; 0 inside.
+double distance_to(const Convex& convex, const Vec3& point_R);
 
-/// Puts ghosts in the order of Compound::ghosts; those of the same convexes by where they are.
+/// Sorts ghosts as in Compound::ghosts; ghosts of the same convexes by position.
 void sort_ghosts(std::vector<Ghost>& ghosts);
 
 }  // namespace sunder

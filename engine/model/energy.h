@@ -1,24 +1,25 @@
-// The energy book: what changed the kinetic energy of the bodies of a run, by cause.
+// Accounting of kinetic energy: changes of the energy of all bodies, by cause (docs/decisions/048).
 #pragma once
 
 namespace sunder {
 
-/// Changes of the kinetic energy of all bodies that are neither static nor kinematic, J.
+/// Changes of the kinetic energy of all bodies that are neither static nor kinematic, in J.
 struct EnergyFlows {
   double gravity = 0;  ///< Work of gravity.
-  double drives = 0;   ///< Work of drives, blasts, and contacts with kinematic bodies.
-  double script = 0;   ///< Of bodies that came in, less that of bodies that were taken away.
-  // Taken from the motion:
-  double cracks = 0;    ///< By new crack surface.
-  double crushing = 0;  ///< By perforation, beyond its cracks.
-  double contacts = 0;  ///< By normal impulses of contacts: plastic impacts.
-  double friction = 0;  ///< By sliding, twisting and rolling friction.
-  double joints = 0;    ///< By joints that do not bend.
-  double bending = 0;   ///< By plastic joints.
-  double debris = 0;    ///< Carried off by pieces that are too small for bodies.
-  double sleep = 0;     ///< By bodies that were put to sleep.
+  double drives = 0;   ///< Work of drives, of blasts, and of contacts with kinematic bodies.
+  /// Energy of bodies that the script added, less that of bodies that it removed.
+  double script = 0;
+  // Losses:
+  double cracks = 0;    ///< Energy of new crack area.
+  double crushing = 0;  ///< Energy of perforation, beyond its cracks.
+  double contacts = 0;  ///< Loss in normal impulses of contacts: plastic impacts.
+  double friction = 0;  ///< Loss in sliding, torsional and rolling friction.
+  double joints = 0;    ///< Loss in joints that are not plastic.
+  double bending = 0;   ///< Loss in plastic joints.
+  double debris = 0;    ///< Energy of pieces that are too small for bodies.
+  double sleep = 0;     ///< Energy of bodies when they fell asleep.
 
-  /// Calls visit(name, value, sign) for each; sign is +1 for what is added, −1 for what is taken.
+  /// Calls visit(name, value, sign) for each cause; sign is +1 for gains, −1 for losses.
   template <class Self, class Visit>
   static void for_each(Self& self, const Visit& visit) {
     visit("gravity", self.gravity, 1), visit("drives", self.drives, 1);
@@ -35,13 +36,13 @@ struct EnergyFlows {
     joints += o.joints, bending += o.bending, debris += o.debris, sleep += o.sleep;
     return *this;
   }
-  /// The change of the kinetic energy that they amount to.
+  /// Returns the net change of the kinetic energy.
   double sum() const {
     double total = 0;
     for_each(*this, [&](const char*, double value, int sign) { total += sign * value; });
     return total;
   }
-  /// Sum of their sizes: the energy that changed hands.
+  /// Returns the sum of absolute values.
   double moved() const {
     double total = 0;
     for_each(*this, [&](const char*, double value, int) { total += value < 0 ? -value : value; });

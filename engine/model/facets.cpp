@@ -1,4 +1,4 @@
-// Read first: make_facets().
+// Begin with make_facets().
 #include "engine/model/facets.h"
 
 #include <algorithm>
@@ -12,10 +12,11 @@
 namespace sunder {
 namespace {
 
-constexpr double kDepth = 0.05;          // of the surface's diagonal, at least
-constexpr double kLeastDepth = 1e-3;     // of that depth, where sides meet at an edge
-constexpr double kCreaseCosine = 0.766;  // 40 degrees, as of other meshes
-constexpr std::size_t kDrawnTogether = 16384;
+constexpr double kMinDepth = 0.05;  // least depth of facets, over the surface's diagonal
+// least depth of one facet, over the largest, where sides meet at an edge
+constexpr double kMinRelativeDepth = 1e-3;
+constexpr double kCreaseCosine = 0.766;  // cosine of 40 degrees, as for other meshes
+constexpr std::size_t kTrianglesPerMesh = 16384;
 constexpr std::size_t kChunk = 256;
 
 /// Corners and unit normals of a surface's triangles.
@@ -41,14 +42,14 @@ class Surface {
   std::vector<Vec3> normals_;
 };
 
-/// Edge `side` of a triangle, from corner to corner.
+/// Edge `side` of a triangle, to the next corner.
 struct HalfEdge {
-  std::uint32_t least, most;  ///< Its vertices.
+  std::uint32_t least, most;  ///< Its vertices, ascending.
   std::uint32_t triangle, side;
   auto operator<=>(const HalfEdge&) const = default;
 };
 
-/// How `other` goes on beyond an edge of a triangle.
+/// Returns the angle, as in EdgeAngles, by which `other` bends away beyond an edge of a triangle.
 Vec2 bend_to(const Surface& surface, const HalfEdge& edge, std::size_t other) {
   const Vec3 &n = surface.normal(edge.triangle), &m = surface.normal(other);
   const Vec3 along =
@@ -58,7 +59,7 @@ Vec2 bend_to(const Surface& surface, const HalfEdge& edge, std::size_t other) {
   return cosine <= 0 ? Vec2(Vec2::UnitY()) : Vec2(cosine, sine).normalized();
 }
 
-std::vector<FacetBends> bends_of(const GroundMesh& ground, const Surface& surface) {
+std::vector<EdgeAngles> bends_of(const GroundMesh& ground, const Surface& surface) {
   std::vector<HalfEdge> edges;
   edges.reserve(3 * surface.size());
   for (std::uint32_t t = 0; t < surface.size(); ++t) {
@@ -69,14 +70,15 @@ std::vector<FacetBends> bends_of(const GroundMesh& ground, const Surface& surfac
     }
   }
   std::sort(edges.begin(), edges.end());
-  std::vector<FacetBends> bends(surface.size(), {Vec2::UnitY(), Vec2::UnitY(), Vec2::UnitY()});
+  std::vector<EdgeAngles> bends(surface.size(), {Vec2::UnitY(), Vec2::UnitY(), Vec2::UnitY()});
   const auto ends = [](const HalfEdge& edge) { return std::tie(edge.least, edge.most); };
   for (auto first = edges.begin(); first != edges.end();) {
     const auto last = std::find_if(first, edges.end(),
                                    [&](const HalfEdge& e) { return ends(e) != ends(*first); });
     for (auto edge = first; edge != last; ++edge) {
       Vec2& bend = bends[edge->triangle][edge->side];
-      for (auto other = first; other != last; ++other) {  // where three meet, the least bend
+      // an edge of three or more triangles has the smallest angle
+      for (auto other = first; other != last; ++other) {
         if (other == edge) continue;
         const Vec2 to = bend_to(surface, *edge, other->triangle);
         if (to.y() < bend.y()) bend = to;
@@ -87,21 +89,21 @@ std::vector<FacetBends> bends_of(const GroundMesh& ground, const Surface& surfac
   return bends;
 }
 
-/// How far behind a point the surface is seen from behind, up to `most_m`.
-double room_behind(const Surface& surface, const Bvh& tree, std::size_t t, const Vec3& point,
-                   double most_m, std::vector<std::uint32_t>& near) {
+/// Returns the distance behind a point at which the surface is met from its back; at most `most_m`.
+double clearance_behind(const Surface& surface, const Bvh& tree, std::size_t t, const Vec3& point,
+                        double max_depth_m, std::vector<std::uint32_t>& near) {
   const Vec3 down = -surface.normal(t);
-  Box way;
-  way.extend(point);
-  way.extend(Vec3(point + most_m * down));
+  Box segment_box;
+  segment_box.extend(point);
+  segment_box.extend(Vec3(point + max_depth_m * down));
   near.clear();
-  tree.overlaps(way, near);
-  double room_m = most_m;
+  tree.overlaps(segment_box, near);
+  double clearance_m = max_depth_m;
   for (const std::uint32_t other : near) {
     const double facing = down.dot(surface.normal(other));
     if (other == t || facing <= 0) continue;
     const double distance_m = surface.normal(other).dot(surface.corner(other, 0) - point) / facing;
-    if (distance_m < 0 || distance_m >= room_m) continue;
+    if (distance_m < 0 || distance_m >= clearance_m) continue;
     const Vec3 there = point + distance_m * down;
     bool within = true;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -109,12 +111,12 @@ double room_behind(const Surface& surface, const Bvh& tree, std::size_t t, const
       const Vec3 inward = surface.normal(other).cross(surface.corner(other, i + 1) - from);
       within = within && inward.dot(there - from) >= 0;
     }
-    if (within) room_m = distance_m;
+    if (within) clearance_m = distance_m;
   }
-  return room_m;
+  return clearance_m;
 }
 
-/// What depth the facets have where there is room.
+/// Returns the depth of facets where the solid is thick enough.
 double depth_of(const Surface& surface) {
   Box box;
   double lengths_m = 0;
@@ -124,19 +126,20 @@ double depth_of(const Surface& surface) {
       lengths_m += (surface.corner(t, i + 1) - surface.corner(t, i)).norm();
     }
   }
-  return std::max(kDepth * box.extent().norm(),
+  return std::max(kMinDepth * box.extent().norm(),
                   lengths_m / (3 * static_cast<double>(surface.size())));
 }
 
-double depth_of(const Surface& surface, const Bvh& tree, std::size_t t, double most_m,
+double depth_of(const Surface& surface, const Bvh& tree, std::size_t t, double max_depth_m,
                 std::vector<std::uint32_t>& near) {
   const Vec3 middle = surface.middle(t);
-  double room_m = room_behind(surface, tree, t, middle, 2 * most_m, near);
+  double clearance_m = clearance_behind(surface, tree, t, middle, 2 * max_depth_m, near);
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 point = 0.8 * surface.corner(t, i) + 0.2 * middle;
-    room_m = std::min(room_m, room_behind(surface, tree, t, point, 2 * most_m, near));
+    clearance_m =
+        std::min(clearance_m, clearance_behind(surface, tree, t, point, 2 * max_depth_m, near));
   }
-  return std::clamp(0.5 * room_m, kLeastDepth * most_m, most_m);
+  return std::clamp(0.5 * clearance_m, kMinRelativeDepth * max_depth_m, max_depth_m);
 }
 
 ConvexPolyhedron prism_behind(const Surface& surface, std::size_t t, double depth_m) {
@@ -155,8 +158,8 @@ ConvexPolyhedron prism_behind(const Surface& surface, std::size_t t, double dept
   return prism;
 }
 
-/// Shading normals of the triangles' corners: the mean of the faces around a vertex that no crease
-/// parts from their own.
+/// Returns shading normals of the triangles' corners: the mean, weighted by area, of the faces
+/// around a vertex that no crease separates from the triangle.
 std::vector<std::array<Vec3f, 3>> corner_normals(const GroundMesh& ground, const Surface& surface) {
   std::vector<std::vector<std::uint32_t>> around(ground.vertices_W.size());
   for (std::uint32_t t = 0; t < surface.size(); ++t)
@@ -178,17 +181,17 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const GroundMesh& ground, const
 
 std::vector<Facet> make_facets(const GroundMesh& ground) {
   const Surface surface(ground);
-  const std::vector<FacetBends> bends = bends_of(ground, surface);
+  const std::vector<EdgeAngles> bends = bends_of(ground, surface);
   std::vector<Box> boxes(surface.size());
   for (std::size_t t = 0; t < surface.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) boxes[t].extend(surface.corner(t, i));
   const Bvh tree(boxes);
-  const double most_m = depth_of(surface);
+  const double max_depth_m = depth_of(surface);
   std::vector<Facet> facets(surface.size());
   for_chunks(facets.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     std::vector<std::uint32_t> near;
     for (std::size_t t = begin; t < end; ++t) {
-      const double depth_m = depth_of(surface, tree, t, most_m, near);
+      const double depth_m = depth_of(surface, tree, t, max_depth_m, near);
       facets[t] = {prism_behind(surface, t, depth_m), bends[t]};
     }
   });
@@ -199,15 +202,16 @@ std::vector<std::shared_ptr<const Mesh>> make_meshes(const GroundMesh& ground) {
   const Surface surface(ground);
   const std::vector<std::array<Vec3f, 3>> normals = corner_normals(ground, surface);
   std::vector<std::shared_ptr<const Mesh>> meshes;
-  for (std::size_t first = 0; first < surface.size(); first += kDrawnTogether) {
-    const std::size_t last = std::min(first + kDrawnTogether, surface.size());
+  for (std::size_t first = 0; first < surface.size(); first += kTrianglesPerMesh) {
+    const std::size_t last = std::min(first + kTrianglesPerMesh, surface.size());
     auto mesh = std::make_shared<Mesh>();
     mesh->material = ground.material;
     Box box;
     for (std::size_t t = first; t < last; ++t)
       for (std::size_t i = 0; i < 3; ++i) box.extend(surface.corner(t, i));
     mesh->origin_T = box.center();
-    std::unordered_map<std::uint32_t, std::uint32_t> latest;  // drawn, of each of its vertices
+    // latest drawn vertex of each ground vertex
+    std::unordered_map<std::uint32_t, std::uint32_t> latest;
     for (std::size_t t = first; t < last; ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto next = static_cast<std::uint32_t>(mesh->vertices.size());

@@ -1,4 +1,4 @@
-// The triangles of the ground: as bodies meet them, and as they are drawn.
+// Triangles of the ground: as collision shapes, and as meshes to draw.
 #pragma once
 
 #include <memory>
@@ -9,16 +9,16 @@
 
 namespace sunder {
 
-/// A triangle as a shape of a static body: ShapeDesc::bends.
+/// A triangle as a shape of a static body (ShapeDesc::bends).
 struct Facet {
   ConvexPolyhedron prism;  ///< In W.
-  FacetBends bends;
+  EdgeAngles bends;
 };
 
-/// One for each triangle, in their order. They are as deep as the surface is coarse, and reach no
-/// farther than to the middle of what is thin. Triangles join where they share vertices.
+/// Returns one facet per triangle, in order. The depth follows from the surface's size and edge
+/// lengths, and is at most half the local thickness. Triangles that share vertices are neighbours.
 std::vector<Facet> make_facets(const GroundMesh& ground);
-/// What is seen, smooth but for creases, in parts of limited size.
+/// Returns meshes of limited size, with smooth normals except at creases.
 std::vector<std::shared_ptr<const Mesh>> make_meshes(const GroundMesh& ground);
 
 }  // namespace sunder

@@ -1,5 +1,5 @@
-// A frame: everything there is to see and to count at one instant, and the seams that pass frames
-// on (docs/architecture.md, "Rooms"). How one comes about is told there in "A step".
+// Frame: all that is drawn and reported at one instant, and the interfaces that pass frames on
+// (docs/architecture.md, "Rooms"). The section "A step" there describes how a frame is made.
 #pragma once
 
 #include <cstdint>
@@ -16,32 +16,33 @@
 
 namespace sunder {
 
-/// What is drawn of one convex (or ball): immutable. It lies in the frame T that it is painted in,
-/// the rest frame R, or what that was before the solid was bent. Positions are floats around
-/// `origin_T`, so precision does not depend on where in the solid the piece was; textures use
-/// origin_T + position.
+/// Mesh of one convex or ball; immutable. It is in the texture frame T: the rest frame R, or R
+/// before the solid was bent. Positions are floats relative to `origin_T`, so that precision does
+/// not depend on the distance from the solid's origin; procedural textures use origin_T + position.
 struct Mesh {
   struct Vertex {
     Vec3f position = Vec3f::Zero();
     Vec3f normal = Vec3f::UnitY();
     std::uint32_t look = kSurface;
   };
-  /// Looks of vertices: those of its material, or, from kFirstPaint on, the frame's paints.
+  /// Appearance of a vertex: the material's surface or interior, or, from kFirstPaint on, an
+  /// element of Frame::paints.
   static constexpr std::uint32_t kSurface = 0, kInterior = 1, kFirstPaint = 2;
   Pose X_RT;
   Vec3 origin_T = Vec3::Zero();
   std::vector<Vertex> vertices;
-  std::vector<Eigen::Vector2f> uvs;    ///< Of each vertex, where paints need them; else empty.
+  /// Texture coordinates per vertex; empty if no texture needs them.
+  std::vector<Eigen::Vector2f> uvs;
   std::vector<std::uint32_t> indices;  ///< Triangles, counter-clockwise seen from outside.
   MaterialIndex material;
 };
 
 struct MeshTag;
 using MeshIndex = Index<MeshTag>;
-/// Append-only: an index never changes its meaning. A frame keeps the store of its instant.
+/// Append-only: an index never changes its meaning. Each frame has the store of its instant.
 using MeshStore = std::vector<std::shared_ptr<const Mesh>>;
 
-/// Camera, light and ground of a scene.
+/// Camera, light and ground plane of a scene.
 struct View {
   Vec3 eye_W = Vec3(6, 4, 10);
   Vec3 target_W = Vec3(0, 1, 0);
@@ -49,28 +50,29 @@ struct View {
   Vec3 to_sun_W = Vec3(0.5, 0.7, 0.4);              ///< Towards the sun, any length.
   Vec3f ground_color = Vec3f(0.42f, 0.38f, 0.32f);  ///< Linear RGB.
   double ground_m = 0;                              ///< Height of the ground plane.
-  double exposure = 1;                              ///< What is seen is this times as bright.
-  double shutter = 0;  ///< How much of the time between frames, before each, it is open.
-  /// Light on a face turned to the sun, and by the sky on one turned up: linear RGB.
+  double exposure = 1;                              ///< Factor of the brightness of the image.
+  /// Fraction of the frame interval, at its end, during which the shutter is open.
+  double shutter = 0;
+  /// Irradiance by the sun on a face turned to it, and by the sky on a face turned up; linear RGB.
   Vec3f sun_color = Vec3f(3.7f, 3.05f, 2.3f);
   Vec3f sky_color = Vec3f(0.6f, 0.72f, 0.92f);
-  double sun_strength = 1, sky_strength = 1;  ///< Times these.
+  double sun_strength = 1, sky_strength = 1;  ///< Factors of `sun_color` and `sky_color`.
 };
 
-/// The key of the ground. Its meshes, if it has any, are a body of this key, which comes last.
+/// Key of the ground. If the ground has meshes, the last body of a frame has this key.
 inline constexpr std::uint32_t kGroundKey = 0xffffffff;
 
-/// Where the camera is at a time; what is not said is as in the key before (view_path.h).
+/// Camera at a time; an unset member has its value of the key before (view_path.h).
 struct ViewKey {
   double time_s = 0;
   std::optional<Vec3> eye_W, target_W;
   std::optional<double> fov_rad;
 };
 
-/// In place of the name of what has none.
-inline constexpr std::uint32_t kUnnamed = 0xffffffff;
+/// Index in place of a name, for bodies without one.
+inline constexpr std::uint32_t kNoName = 0xffffffff;
 
-/// A body at one instant. `key` is unique for a run and never reused.
+/// A body at one instant. `key` is unique in a run and never reused.
 struct FrameBody {
   std::uint64_t key = 0;
   Pose X_WB;
@@ -79,44 +81,45 @@ struct FrameBody {
   Vec3 angular_velocity_W = Vec3::Zero();
   bool is_static = false;
   bool asleep = false;
-  /// Of what it was part of in the frame before, in whose rest frame it lies; its own where nothing
-  /// broke.
-  std::uint64_t before_key = 0;
-  std::uint32_t name = kUnnamed;  ///< In Frame::names, of what it came off in the end.
+  /// Key, in the previous frame, of the body that this was part of, whose rest frame it shares;
+  /// equal to `key` if nothing broke.
+  std::uint64_t previous_key = 0;
+  /// Index in Frame::names of the solid, ball or shot that this came from.
+  std::uint32_t name = kNoName;
 };
 
 /// A mesh drawn on a body: world = X_WB * (X_RT * (origin_T + position) − com_R).
 struct Instance {
   MeshIndex mesh;
   std::uint32_t body = 0;       ///< Index in Frame::bodies.
-  MaterialIndex material = {};  ///< That it is drawn as; none(): the mesh's.
+  MaterialIndex material = {};  ///< Material to draw it with; none(): the mesh's.
 };
 
-/// A point where two bodies press on each other.
+/// A contact point that carries load.
 struct FrameContact {
   Vec3f point_W = Vec3f::Zero();
-  Vec3f force_W = Vec3f::Zero();       ///< On body b, N, friction included.
-  std::uint64_t key_a = 0, key_b = 0;  ///< Keys of the bodies; kGroundKey: the ground.
+  Vec3f force_W = Vec3f::Zero();       ///< On body b, in N, friction included.
+  std::uint64_t key_a = 0, key_b = 0;  ///< Keys of the bodies; kGroundKey for the ground.
 };
 
-/// What the broad phase takes a shape of a body for.
+/// Bounding box of a shape in the broad phase.
 struct FrameBox {
   Vec3f min_W = Vec3f::Zero(), max_W = Vec3f::Zero();
   std::uint32_t body = 0;  ///< Index in Frame::bodies.
 };
 
-/// What happens inside, for who looks there: gathered only where that was asked for.
+/// Internal state for debug views; gathered only on request.
 struct Inspection {
   std::vector<FrameContact> contacts;
   std::vector<FrameBox> boxes;
-  /// Per body, the first of those that contacts and joints lead to without crossing what is held.
+  /// For each body, the first body of its island (connected by contacts and joints).
   std::vector<std::uint32_t> islands;
-  /// Per instance, the worst stress on the bonds of its convex, in parts of what they bear;
-  /// negative where no load can break any.
+  /// For each instance, the highest stress over its limit among the bonds of its convex; negative
+  /// if no load can break any.
   std::vector<float> stresses;
 };
 
-/// A piece of debris: one of kDebrisVariants chips, inscribed in a sphere.
+/// A piece of debris: one of kDebrisVariants chip meshes, inscribed in a sphere.
 struct FrameDebris {
   Vec3f position_W = Vec3f::Zero();
   Quatf rotation_WD = Quatf::Identity();
@@ -134,28 +137,32 @@ struct FrameDust {
   MaterialIndex material;
 };
 
-/// A body broke or cracked. Several bodies can be born and broken within one frame: `parent_key` is
-/// then among the `child_keys` of an earlier event of the frame, and in no frame's bodies.
-/// `before_key` and `name` tell what every parent belonged to; FrameBody has the same of the
-/// pieces. Bodies that bend, that become one again or that the script lets go get new keys without
+/// A body broke or cracked. A body may be created and broken within one frame: `parent_key` is then
+/// among the `child_keys` of an earlier event of the frame, and no frame has such a body.
+/// `previous_key` and `name` identify the origin of every parent; FrameBody has them for the
+/// pieces. Bodies that bend, that are merged again or that the script releases get new keys without
 /// an event.
 struct BreakEvent {
   double time_s = 0;
-  std::uint64_t parent_key = 0;           ///< Of the body that broke.
-  std::vector<std::uint64_t> child_keys;  ///< Of its pieces. What stands keeps its parent's key.
-  MaterialIndex material;                 ///< Where it broke.
-  std::uint64_t before_key = 0;           ///< Of what the parent was part of in the frame before.
-  std::uint32_t name = kUnnamed;          ///< In Frame::names, of what the parent came off.
-  Vec3 point_W = Vec3::Zero();  ///< Where it was hit, or where a blow elsewhere bent it most.
-  double energy_J = 0;          ///< Taken from the impact.
+  std::uint64_t parent_key = 0;  ///< Key of the body that broke.
+  /// Keys of its pieces. A static remainder keeps the parent's key.
+  std::vector<std::uint64_t> child_keys;
+  MaterialIndex material;  ///< Material at the point of the break.
+  /// Key, in the previous frame, of the body that the parent was part of.
+  std::uint64_t previous_key = 0;
+  std::uint32_t name = kNoName;  ///< Index in Frame::names of the parent's origin.
+  /// Point of impact, or, if an impact elsewhere broke it, the point of highest stress.
+  Vec3 point_W = Vec3::Zero();
+  double energy_J = 0;  ///< Energy taken from the impact.
   double new_area_m2 = 0;
-  double plan_ms = 0;        ///< Wall time of the fracture.
-  std::uint32_t pieces = 0;  ///< All pieces; those without a key became debris. 1: it is cracked.
+  double plan_ms = 0;  ///< Wall time of the fracture computation.
+  /// Number of all pieces; pieces without a key became debris. 1: the body only cracked.
+  std::uint32_t pieces = 0;
 };
 
-/// Counted, not timed: the same on every machine.
+/// Deterministic counts, equal on every machine.
 struct Counts {
-  std::uint32_t bodies = 0;  ///< Dynamic.
+  std::uint32_t bodies = 0;  ///< Dynamic bodies.
   std::uint32_t awake = 0;
   std::uint32_t convexes = 0;
   std::uint32_t compounds = 0;
@@ -164,73 +171,79 @@ struct Counts {
   std::uint32_t dust = 0;
 };
 
-/// The ledger of a frame.
+/// Figures of a frame: work, time, and accounting of mass, energy and momentum.
 struct FrameReport {
-  double stage_ms[kStages] = {};      ///< Summed over the frame's steps.
-  double stage_cpu_ms[kStages] = {};  ///< The same in processor time, of all threads.
-  std::vector<WorkItem> work;         ///< Parts of stages; summed as well.
+  double stage_ms[kStages] = {};  ///< Wall time, summed over the frame's steps.
+  /// Processor time of all threads, summed over the frame's steps.
+  double stage_cpu_ms[kStages] = {};
+  std::vector<WorkItem> work;  ///< Parts of stages, summed over the frame's steps.
   Counts counts;
-  double mass_kg = 0;  ///< Everything: debris, what the script took and shots yet to come included.
-  double volume_m3 = 0;  ///< Of all solids.
+  /// Total mass, including debris, bodies removed by the script and shots yet to come.
+  double mass_kg = 0;
+  double volume_m3 = 0;  ///< Volume of all solids.
   double kinetic_J = 0;
   double potential_J = 0;
-  double plastic_J = 0;          ///< That hinges have taken since the start.
-  EnergyFlows energy;            ///< Since the previous frame.
-  double energy_residual_J = 0;  ///< Change of the kinetic energy since then, less their sum.
-  /// |change of momentum − external impulses| of the frame over the momentum that changed hands.
+  double plastic_J = 0;  ///< Plastic work of hinges since the start.
+  EnergyFlows energy;    ///< Changes of the kinetic energy since the previous frame.
+  /// Change of the kinetic energy since the previous frame, less energy.sum().
+  double energy_residual_J = 0;
+  /// |change of momentum − external impulses| of the frame over the momentum exchanged.
   double momentum_residual = 0;
-  double friction_allowed_Ns = 0;  ///< By Coulomb's law, of all contacts in the frame,
-  double friction_excess_Ns = 0;   ///< and friction beyond it.
-  std::uint32_t carried_over = 0;  ///< Impacts and loads waiting for a later step's budget.
-  std::uint32_t failed = 0;        ///< Convexes that a break left whole, as they would not add up,
-  double failed_m3 = 0;            ///< and their volume.
+  /// Sum over all contacts of the largest friction by Coulomb's law.
+  double friction_allowed_Ns = 0;
+  double friction_excess_Ns = 0;   ///< Sum of friction beyond Coulomb's law.
+  std::uint32_t carried_over = 0;  ///< Impacts and loads deferred to a later step by the budget.
+  /// Convexes that a break left whole because their parts did not sum to their volume.
+  std::uint32_t failed = 0;
+  double failed_m3 = 0;  ///< Volume of the convexes counted in `failed`.
   std::uint32_t limits_hit = 0;
-  std::uint32_t aged = 0;  ///< Fragments that became debris to make room.
+  std::uint32_t aged = 0;  ///< Fragments turned into debris to keep within limits.
   std::uint32_t frozen = 0;
-  std::uint32_t joints_lost = 0;  ///< Broken by their load, or without a piece to hold on to.
+  std::uint32_t joints_lost = 0;  ///< Joints broken by load, or without a piece to attach to.
   std::vector<float> penetrations_m;
 };
 
-/// One instant, immutable once made; frames share what did not change.
+/// One instant; immutable once made. Frames share unchanged parts.
 struct Frame {
   std::uint64_t index = 0;
   double time_s = 0;
   View view;
   std::shared_ptr<const std::vector<Material>> materials;
-  std::shared_ptr<const std::vector<Paint>> paints;  ///< Null: none.
+  std::shared_ptr<const std::vector<Appearance>> paints;  ///< Null if there are none.
   std::shared_ptr<const MeshStore> meshes;
-  /// Of the scene's solids, balls and shots; the same in all frames. Null where nobody knows.
+  /// Names of the scene's solids, balls and shots; the same in all frames. Null if unknown.
   std::shared_ptr<const std::vector<std::string>> names;
   std::vector<FrameBody> bodies;  ///< Ascending by key.
   std::vector<Instance> instances;
   std::vector<FrameDebris> debris;
   std::vector<FrameDust> dust;
-  std::vector<BreakEvent> breaks;  ///< Since the previous frame.
+  std::vector<BreakEvent> breaks;  ///< Breaks since the previous frame.
   FrameReport report;
-  /// Of a frame from a take: the hash of the state as it was, which is stored less exactly; else 0.
+  /// For a frame from a recording: hash of the original state, which was more precise; else 0.
   std::uint64_t recorded_hash = 0;
-  std::shared_ptr<const Inspection> inspection;  ///< Null unless it was asked for.
+  std::shared_ptr<const Inspection> inspection;  ///< Null unless requested.
 };
 using FramePtr = std::shared_ptr<const Frame>;
 
-/// Where frames come from: a simulation, a take.
+/// Source of frames: a simulation, a recording.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  /// The next frame; null at the end.
+  /// Returns the next frame; null at the end.
   virtual FramePtr next() = 0;
 };
 
-/// Where frames go: video, images, statistics, state hash.
+/// Consumer of frames: video, images, statistics, state hash.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
+  /// Processes one frame.
   virtual void take(const FramePtr& frame) = 0;
-  /// Called once after the last frame; writes what is only known then.
+  /// Called once after the last frame; writes results that depend on all frames.
   virtual void finish() {}
 };
 
-/// The main loop: every frame of the source, to every sink, in order.
+/// Main loop: passes every frame of the source to every sink, in order, then finishes the sinks.
 void pump(FrameSource& source, std::span<FrameSink* const> sinks);
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// What holds things together: joints, and their kinds.
+// Joints of a scene, and their kinds.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,27 @@
 namespace sunder {
 
 enum class JointKind : std::uint8_t {
-  kBall,      ///< The anchors stay in one place.
-  kHinge,     ///< And the axes stay parallel.
-  kFixed,     ///< And neither body turns against the other.
+  kBall,      ///< The anchors coincide.
+  kHinge,     ///< The anchors coincide and the axes stay parallel.
+  kFixed,     ///< The bodies do not move relative to each other.
   kDistance,  ///< The anchors stay `length_m` apart.
-  kRope,      ///< No farther than that.
-  kPlastic,   ///< As kFixed, until the section between them flows; not for scenes.
+  kRope,      ///< The anchors are at most `length_m` apart.
+  kPlastic,   ///< As kFixed, until the section between the bodies yields; not for scenes.
 };
 
-/// What holds two things of the scene together, or one and the world, as they stand at the start.
+/// A joint between two things of the scene, or to the world, in their poses at the start.
 struct Joint {
   JointKind kind = JointKind::kBall;
   /// Indices of solids, then of balls; none: the world.
   std::optional<std::uint32_t> a = std::nullopt, b = std::nullopt;
-  Vec3 at_W = Vec3::Zero();  ///< On a; but for kDistance and kRope, on both.
-  Vec3 to_W = Vec3::Zero();  ///< kDistance, kRope: on b.
+  Vec3 at_W = Vec3::Zero();  ///< Anchor on a; on b as well, except for kDistance and kRope.
+  Vec3 to_W = Vec3::Zero();  ///< kDistance, kRope: anchor on b.
   Vec3 axis_W = Vec3::UnitZ();
+  /// The joint breaks when its force would exceed this.
   double breaking_N = std::numeric_limits<double>::infinity();
+  /// The joint breaks when its torque would exceed this.
   double breaking_Nm = std::numeric_limits<double>::infinity();
-  bool collide = false;
+  bool collide = false;  ///< True if the two bodies collide with each other.
 };
 
 }  // namespace sunder

@@ -13,7 +13,7 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 Vec6 pose_of(const PathKey& key) {
   Vec6 pose;
-  pose << key.shift_W, key.turn_W;
+  pose << key.shift_W, key.rotation_W;
   return pose;
 }
 
@@ -36,12 +36,12 @@ PathKey Path::at(double time_s) const {
   const auto slope = [&](std::ptrdiff_t i) -> Vec6 {  // at key i
     const std::ptrdiff_t before = i < 0 ? count - 1 : i, after = i + 1 == count ? 0 : i + 1;
     if (!loops && (i < 0 || i + 1 == count)) return Vec6::Zero();
-    return slope_between(line(before), length_s(before), line(after), length_s(after));
+    return monotone_slope(line(before), length_s(before), line(after), length_s(after));
   };
   const double h = length_s(n), s = (now_s - key(n - 1).time_s) / h;
   Vec6 pose = pose_of(key(n - 1)) + h * s * line(n);
   if (smooth) {
-    pose += h * bow<Vec6>(s, line(n), slope(n - 1), slope(n));
+    pose += h * cubic_offset<Vec6>(s, line(n), slope(n - 1), slope(n));
   }
   return {time_s, pose.head<3>(), pose.tail<3>()};
 }

@@ -1,4 +1,4 @@
-// Where something is taken, and when: keys in time, and what lies between them.
+// Paths of scripted motion: poses at key times, and interpolation between them.
 #pragma once
 
 #include <vector>
@@ -7,22 +7,24 @@
 
 namespace sunder {
 
-/// Where something is at a time, seen from where it stood.
+/// Displacement and rotation at a time, relative to the pose at the start.
 struct PathKey {
   double time_s = 0;
   Vec3 shift_W = Vec3::Zero();
-  Vec3 turn_W = Vec3::Zero();  ///< Rotation vector; more than a turn is one.
+  Vec3 rotation_W = Vec3::Zero();  ///< Rotation vector; angles above 2π are several turns.
 };
 
-/// Starts at time 0 where it stood; goes through its keys, whose times ascend from there; stays at
-/// the last, or begins again.
+/// A path from the pose at time 0 through all keys, whose times ascend from 0. After the last key
+/// it stays there or, if it loops, starts again.
 struct Path {
   std::vector<PathKey> keys;
-  /// Velocities are continuous, 0 at both ends of what does not loop, and overshoot no key; what
-  /// goes equally fast from key to key goes so between them. Else straight from key to key.
+  /// True: velocities are continuous, 0 at both ends unless the path loops, and overshoot no key;
+  /// equal speeds from key to key remain constant. False: linear interpolation.
   bool smooth = true;
-  bool loops = false;  ///< The last key is where it stood, but for whole turns.
+  /// True: repeats; the last key must equal the start, except for whole turns.
+  bool loops = false;
 
+  /// Returns the interpolated key; times outside the path are clamped, or wrapped if it loops.
   PathKey at(double time_s) const;
 };
 

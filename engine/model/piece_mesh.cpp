@@ -12,50 +12,52 @@
 namespace sunder {
 namespace {
 
-// A face counts as covered when less than this part of it shows: bond areas carry rounding.
-constexpr double kCovered = 1 - 1e-6;
+// Least covered fraction of a face that counts as covered; bond areas have rounding errors.
+constexpr double kMinCovered = 1 - 1e-6;
 
-/// What overlaps what, directly or over others, found out where somebody asks.
-class Heaps {
+/// Groups of convexes that overlap, directly or through others; computed on demand.
+class OverlapGroups {
  public:
-  explicit Heaps(const Structure& structure) : structure_(structure) {}
+  explicit OverlapGroups(const Structure& structure) : structure_(structure) {}
 
-  /// The lowest slot that a convex overlaps; none() if it overlaps none. Faces beyond which two of
-  /// a heap lie are covered by the larger: nobody knows how far both cover it.
+  /// Returns the lowest slot of a convex's group; none() if it overlaps no other convex. Where
+  /// several convexes of a group lie beyond a face, only the largest bond counts as cover, since
+  /// the overlap of their areas is unknown.
   ConvexSlot of(ConvexSlot slot) {
-    if (structure_.ghosts_of(slot).empty()) return {};
-    if (const auto known = lowest_.find(slot.value); known != lowest_.end()) return known->second;
-    std::vector<ConvexSlot> heap = {slot};
+    if (structure_.ghost_indices(slot).empty()) return {};
+    if (const auto known = group_of_.find(slot.value); known != group_of_.end())
+      return known->second;
+    std::vector<ConvexSlot> group = {slot};
     ConvexSlot least = slot;
-    lowest_[slot.value] = slot;
-    for (std::size_t i = 0; i < heap.size(); ++i) {
-      least = std::min(least, heap[i]);
-      for (const std::uint32_t number : structure_.ghosts_of(heap[i])) {
+    group_of_[slot.value] = slot;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      least = std::min(least, group[i]);
+      for (const std::uint32_t number : structure_.ghost_indices(group[i])) {
         for (const std::uint32_t other : structure_.ghost(number).of) {
           const ConvexSlot member(other);
-          if (lowest_.emplace(other, member).second) heap.push_back(member);
+          if (group_of_.emplace(other, member).second) group.push_back(member);
         }
       }
     }
-    for (const ConvexSlot member : heap) lowest_[member.value] = least;
+    for (const ConvexSlot member : group) group_of_[member.value] = least;
     return least;
   }
 
  private:
   const Structure& structure_;
-  std::unordered_map<std::uint32_t, ConvexSlot> lowest_;
+  std::unordered_map<std::uint32_t, ConvexSlot> group_of_;
 };
 
 std::vector<std::uint8_t> covered_faces(const ConvexPolyhedron& polyhedron,
                                         const std::vector<double>& covered_m2) {
   std::vector<std::uint8_t> covered(covered_m2.size(), 0);
   for (std::size_t f = 0; f < covered.size(); ++f) {
-    covered[f] = covered_m2[f] > 0 && covered_m2[f] >= kCovered * face_area(polyhedron, f);
+    covered[f] = covered_m2[f] > 0 && covered_m2[f] >= kMinCovered * face_area(polyhedron, f);
   }
   return covered;
 }
 
-/// Marks the faces whose caps are covered: of a surface convex, caps are what touches.
+/// Returns flags of the faces of a surface convex whose caps are covered.
 std::vector<std::uint8_t> covered_caps(const Convex& convex,
                                        const std::vector<double>& covered_m2) {
   const auto& faces = convex.polyhedron.faces;
@@ -65,7 +67,7 @@ std::vector<std::uint8_t> covered_caps(const Convex& convex,
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (faces[f].id == convex.visual->faces[cap].id) sum_m2 += covered_m2[f];
     }
-    if (sum_m2 <= 0 || sum_m2 < kCovered * face_area(*convex.visual, cap)) continue;
+    if (sum_m2 <= 0 || sum_m2 < kMinCovered * face_area(*convex.visual, cap)) continue;
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (faces[f].id == convex.visual->faces[cap].id) covered[f] = 1;
     }
@@ -73,8 +75,8 @@ std::vector<std::uint8_t> covered_caps(const Convex& convex,
   return covered;
 }
 
-/// From the origin of a mesh, in the frame that it is painted in.
-Vec3f place_T(const Mesh& mesh, const Vec3& point_R) {
+/// Returns a point relative to the origin of a mesh, in its texture frame.
+Vec3f point_T(const Mesh& mesh, const Vec3& point_R) {
   return (mesh.X_RT.inverse() * point_R - mesh.origin_T).cast<float>();
 }
 Vec3f direction_T(const Mesh& mesh, const Vec3f& direction_R) {
@@ -90,7 +92,7 @@ void add_polyhedron(const ConvexPolyhedron& polyhedron, const std::vector<std::u
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const std::uint32_t corner = face.first_corner + k;
       mesh.vertices.push_back(
-          {place_T(mesh, polyhedron.vertices[polyhedron.corners[corner]]),
+          {point_T(mesh, polyhedron.vertices[polyhedron.corners[corner]]),
            direction_T(mesh, polyhedron.corner_normals[corner]),
            face.kind == FaceKind::kInterior ? Mesh::kInterior : Mesh::kSurface});
       if (k >= 2) {
@@ -107,14 +109,15 @@ bool is_hidden(const Convex& convex, const std::vector<std::uint8_t>& hidden, Pl
   return false;
 }
 
-/// The triangles of a visual mesh; corners that look alike share a vertex.
+/// Adds the triangles of a visual mesh; corners of equal appearance share a vertex.
 void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, Mesh& mesh) {
   constexpr std::uint32_t kNone = 0xffffffff;
   const PolygonMesh& visual = *convex.visual;
   const bool textured = !visual.corner_uvs.empty() &&
                         std::any_of(visual.faces.begin(), visual.faces.end(),
                                     [](const PolygonMesh::Face& face) { return face.mark > 0; });
-  std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);  // of each of its vertices
+  // latest drawn vertex of each visual vertex
+  std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);
   for (std::size_t f = 0; f < visual.faces.size(); ++f) {
     const PolygonMesh::Face& face = visual.faces[f];
     if (!face.id.none() && is_hidden(convex, hidden, face.id)) continue;
@@ -130,7 +133,7 @@ void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, M
         if (drawn == kNone || mesh.vertices[drawn].look != look ||
             mesh.vertices[drawn].normal != normal || (textured && mesh.uvs[drawn] != uv)) {
           drawn = static_cast<std::uint32_t>(mesh.vertices.size());
-          mesh.vertices.push_back({place_T(mesh, visual.vertices[vertex]), normal, look});
+          mesh.vertices.push_back({point_T(mesh, visual.vertices[vertex]), normal, look});
           if (textured) mesh.uvs.push_back(uv);
         }
         mesh.indices.push_back(drawn);
@@ -143,21 +146,21 @@ void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, M
 
 std::vector<std::vector<std::uint8_t>> hidden_faces(const Structure& structure,
                                                     std::span<const ConvexSlot> slots) {
-  Heaps heaps(structure);
+  OverlapGroups groups(structure);
   std::vector<std::vector<std::uint8_t>> hidden;
   hidden.reserve(slots.size());
   std::vector<double> covered_m2;
-  std::map<std::pair<std::uint32_t, ConvexSlot>, double> most_m2;  // by face and heap beyond
+  std::map<std::pair<std::uint32_t, ConvexSlot>, double> most_m2;  // key: face, and group beyond it
   for (const ConvexSlot slot : slots) {
     const Convex& convex = *structure.convex(slot);
     covered_m2.assign(convex.polyhedron.faces.size(), 0.0);
     most_m2.clear();
     for (const Link& link : structure.links(slot)) {
-      const ConvexSlot heap = heaps.of(link.other);
-      if (heap.none()) {
+      const ConvexSlot group = groups.of(link.other);
+      if (group.none()) {
         covered_m2[link.face] += link.area_m2;
       } else {
-        double& most = most_m2[{link.face, heap}];
+        double& most = most_m2[{link.face, group}];
         most = std::max(most, link.area_m2);
       }
     }

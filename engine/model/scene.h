@@ -1,4 +1,4 @@
-// A scene: everything a run starts from. Made by scenes/ from a file, or by hand in code.
+// Scene: all inputs of a run. Made by scenes/ from a file, or in code.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace sunder {
 
-/// A compound placed in the world; held in place if any of its convexes is anchored.
+/// A compound placed in the world; static if any of its convexes is anchored.
 struct Solid {
   std::string name;
   Compound compound;
@@ -43,70 +43,67 @@ inline double ball_mass_kg(const Ball& ball, std::span<const Material> materials
   return materials[ball.material.value].density_kg_m3 * ball_volume_m3(ball.radius_m);
 }
 
-/// A ball that appears at a time. A wrecking ball hangs on a chain that reaches from where it hangs
-/// to its surface, or, without links, on a rope without weight to its centre.
+/// A ball that appears at a time. A wrecking ball hangs on a chain from `hangs_from_W` to its
+/// surface, or, without links, on a massless rope to its centre.
 struct Shot {
   double time_s = 0;
   Ball ball;
   std::optional<Vec3> hangs_from_W = std::nullopt;
-  std::vector<Solid> links = {};  ///< From the top down, in one line and equally long.
+  std::vector<Solid> links = {};  ///< From the top down, in a straight line, of equal length.
 };
 
-/// Place of a charge: the wave of one on the ground is hemispherical, and stronger.
+/// Position of a charge; the wave of a charge on the ground is hemispherical, and stronger.
 enum class BurstKind : std::uint8_t { kGround, kAir };
 
-/// An impulse on every face that sees the centre: per square metre, falling with the square of the
-/// distance left to `radius_m`, and with slant; or, with `tnt_kg`, that of the wave of such a
-/// charge (engine/world/act/charge.h). It breaks what its energy can.
+/// An impulse on every face turned to the centre. Per area it decreases with the squared distance
+/// left to `radius_m` and with slant; with `tnt_kg` it is that of the blast wave of a charge
+/// (engine/world/act/charge.h). It breaks bodies by its energy.
 struct Blast {
   double time_s = 0;
   Vec3 center_W = Vec3::Zero();
   double radius_m = 4;
-  double impulse_Ns_m2 = 1000;  ///< At the centre.
-  bool cover = false;           ///< Whether what is nearer to the centre covers what is behind it.
-  /// Mass of a charge of TNT, in place of `radius_m` and `impulse_Ns_m2`.
+  double impulse_Ns_m2 = 1000;  ///< Impulse per area at the centre.
+  bool cover = false;           ///< True: nearer bodies shield those behind them.
+  /// Mass of a TNT charge; replaces `radius_m` and `impulse_Ns_m2`.
   std::optional<double> tnt_kg = std::nullopt;
-  BurstKind burst = BurstKind::kGround;  ///< Of the charge.
+  BurstKind burst = BurstKind::kGround;  ///< Position of the charge.
 };
 
-/// Supports go: solids with all that came off them, or else the anchors in a box.
+/// Removes solids together with all pieces of them, or, if `roots` is empty, the anchors in a box.
 struct Removal {
   double time_s = 0;
   std::vector<std::uint32_t> roots;  ///< Indices of solids, then of balls, ascending.
   Box anchors_W;
 };
 
-/// What holds a body's velocity as far as the force goes, or its spin as far as the torque does, or
-/// both.
+/// Holds bodies at a velocity by limited force, an angular velocity by limited torque, or both.
 struct Drive {
   double time_s = 0, until_s = 0;
-  std::vector<std::uint32_t> roots;  ///< As in Removal; driven until they break.
+  std::vector<std::uint32_t> roots;  ///< As in Removal; a body is driven until it breaks.
   std::optional<Vec3> velocity_W;
   double force_N = 1e6;
   std::optional<Vec3> angular_velocity_W = std::nullopt;
   double torque_Nm = 1e6;
 };
 
-/// What goes its path whatever is in its way: of infinite mass, and not to be broken, until it is
-/// let go.
+/// Moves solids along a path as kinematic, unbreakable bodies of infinite mass until `release_s`.
 struct Move {
-  std::vector<std::uint32_t>
-      roots;  ///< Of solids; none is anchored, or jointed to what is not free.
+  /// Indices of solids; none is anchored, or jointed to a body that is not free.
+  std::vector<std::uint32_t> roots;
   Path path;
-  std::optional<Vec3>
-      pivot_W;  ///< What its turns are about, where it stood; or each its own origin.
+  std::optional<Vec3> pivot_W;  ///< Centre of rotation at the start; none: each solid's own origin.
   double release_s = std::numeric_limits<double>::infinity();
 };
 
-/// Triangles that stand for good: hills, rocks, walls. They are met from the front, seen from which
-/// they run counter-clockwise, and seen from there; the surface may be open.
+/// Static triangles: hills, rocks, walls. Only the front, from which they are counter-clockwise,
+/// collides and is drawn; the surface may be open.
 struct GroundMesh {
   std::vector<Vec3> vertices_W;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  MaterialIndex material;  ///< Its friction, its bounce and its look.
+  MaterialIndex material;  ///< Gives friction, restitution and appearance.
 };
 
-/// The horizontal plane y = height_m, without end, and what stands on it.
+/// The infinite horizontal plane y = height_m, and the meshes of the ground.
 struct Ground {
   double height_m = 0;
   double friction = 0.8;
@@ -114,29 +111,30 @@ struct Ground {
   std::vector<GroundMesh> meshes;
 };
 
-/// Speed against accuracy.
+/// Step and substeps, which determine accuracy and cost.
 struct Accuracy {
   double dt_s = 1.0 / 120;
   int substeps = 4;
-  double error_target_m = 0;  ///< What `substeps` were worked out for; 0: they were given.
+  double error_target_m = 0;  ///< Error that `substeps` were computed for; 0: they were given.
 };
 
-/// How contacts are solved; what each means is in solver/rigid/rigid_physics.h.
-struct SolverDials {
+/// Options of the contact solver, described in solver/rigid/rigid_physics.h.
+struct SolverOptions {
   int max_colors = 64;
   int sweeps = 1;
   int lanes = 0;
   bool sleeping = true;
 };
 
+/// Upper limits of a run. FrameReport counts when one is reached: limits_hit, carried_over, aged.
 struct Limits {
   std::uint32_t bodies = 20000;
-  /// From so many bodies on, the smallest fragments at rest become debris; 0: when room is short.
+  /// Number of bodies from which the smallest fragments at rest become debris; 0: `bodies`.
   std::uint32_t ageing = 0;
-  /// Parts to cut, about: cells of a pattern, and eight for each convex in its reach; breaks beyond
-  /// it wait a frame.
+  /// Approximate number of parts cut per frame: cells of a pattern, and eight for each convex in
+  /// its reach. Further breaks wait for the next frame.
   std::uint32_t parts_a_frame = 1000;
-  /// Visits of bonds to find out what load breaks; what is beyond it waits a frame.
+  /// Bond evaluations per frame to find the bonds that load breaks; more work waits for the next.
   std::uint32_t load_work_a_frame = 40000;
   std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
   std::uint32_t dust = 4000;     ///< Puffs of dust alive at once.
@@ -145,33 +143,34 @@ struct Limits {
 struct Scene {
   std::string name;
   std::string description;
-  std::vector<std::string> warnings;  ///< Faults of what it was made from: missing pictures.
+  std::vector<std::string> warnings;  ///< Problems of its input files, such as missing images.
   double duration_s = 6;
   Vec3 gravity_W = Vec3(0, -9.81, 0);
   std::uint64_t seed = 1;
-  bool planar = false;  ///< Moves in the plane z = 0 alone: the third dimension is not simulated.
+  bool planar = false;  ///< True: motion in the plane z = 0 only, by a two-dimensional solver.
   Accuracy accuracy;
-  SolverDials solver;
+  SolverOptions solver;
   Limits limits;
   Ground ground;
   View view;
-  std::vector<ViewKey> view_keys;  ///< Where its camera goes; none: it stays.
+  std::vector<ViewKey> view_keys;  ///< Keys of the camera's path; empty: the camera is fixed.
   std::vector<Material> materials;
-  std::vector<Paint> paints;  ///< Of meshes from files: PolygonMesh::Face::mark.
+  /// Appearance of faces of meshes from files, by PolygonMesh::Face::mark.
+  std::vector<Appearance> paints;
   std::vector<Solid> solids;
   std::vector<Ball> balls;
   std::vector<Joint> joints;
-  // The script, each in order of time.
+  // Script; each list is sorted by time.
   std::vector<Shot> shots;
   std::vector<Blast> blasts;
   std::vector<Removal> removals;
   std::vector<Drive> drives;
-  std::vector<Move> moves;  ///< In no order.
+  std::vector<Move> moves;  ///< Unsorted.
 };
 
-/// Of its solids, balls and shots, in this order; a chain goes by the name of its ball. Shots
-/// without one are shot.0, shot.1 and so on, counted among all.
-inline std::vector<std::string> names_in(const Scene& scene) {
+/// Returns the names of solids, balls and shots, in this order; a chain has the name of its ball.
+/// Shots without a name are shot.0, shot.1 and so on, by their index among all shots.
+inline std::vector<std::string> object_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Solid& solid : scene.solids) names.push_back(solid.name);
   for (const Ball& ball : scene.balls) names.push_back(ball.name);

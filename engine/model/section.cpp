@@ -4,7 +4,7 @@
 
 namespace sunder {
 
-SectionLoad in_parts(const SectionStrength& strength, const Wrench& wrench_R) {
+SectionLoad relative_load(const SectionStrength& strength, const Wrench& wrench_R) {
   const Vec3 force = strength.axes_R.transpose() * wrench_R.force_N;
   const Vec3 moment = strength.axes_R.transpose() * wrench_R.moment_Nm;
   const Vec3 turning = moment.cwiseQuotient(strength.moment_Nm);
@@ -13,8 +13,8 @@ SectionLoad in_parts(const SectionStrength& strength, const Wrench& wrench_R) {
 }
 
 double utilisation(const SectionStrength& strength, const Wrench& wrench_R) {
-  // The load factor s has s·m + s²·n² = 1; this is 1/s.
-  const SectionLoad load = in_parts(strength, wrench_R);
+  // The load factor s satisfies s·m + s²·n² = 1; this is 1/s.
+  const SectionLoad load = relative_load(strength, wrench_R);
   return 0.5 * (load.across + std::hypot(load.across, 2 * load.axial));
 }
 

@@ -41,14 +41,14 @@ void Structure::link(const Bond& bond) {
 }
 
 void Structure::unlink(const Bond& bond) {
-  const auto is_it = [&](std::uint32_t other, std::uint32_t face, std::uint32_t other_face) {
+  const auto is_link = [&](std::uint32_t other, std::uint32_t face, std::uint32_t other_face) {
     return [=](const Link& link) {
       return std::tie(link.other.value, link.face, link.other_face) ==
              std::tie(other, face, other_face);
     };
   };
-  bonds_ -= std::erase_if(slots_[bond.a].links, is_it(bond.b, bond.face_a, bond.face_b));
-  std::erase_if(slots_[bond.b].links, is_it(bond.a, bond.face_b, bond.face_a));
+  bonds_ -= std::erase_if(slots_[bond.a].links, is_link(bond.b, bond.face_a, bond.face_b));
+  std::erase_if(slots_[bond.b].links, is_link(bond.a, bond.face_b, bond.face_a));
 }
 
 void Structure::add_ghost(Ghost ghost) {
@@ -186,10 +186,10 @@ Box bounds(const Structure& structure) {
   return box;
 }
 
-double distance_outside(const Structure& structure, const Vec3& point_R) {
+double distance_to(const Structure& structure, const Vec3& point_R) {
   double least = std::numeric_limits<double>::infinity();
   structure.for_each([&](ConvexSlot, const Convex& convex) {
-    least = std::min(least, distance_outside(convex, point_R));
+    least = std::min(least, distance_to(convex, point_R));
   });
   return least;
 }
@@ -198,16 +198,16 @@ ConvexSlot nearest(const Structure& structure, const Vec3& point_R) {
   SUNDER_CHECK(!structure.empty());
   double least = 0;
   ConvexSlot found;
-  const auto look = [&](double radius_m) {
+  const auto search = [&](double radius_m) {
     for (const ConvexSlot slot : structure.within(point_R, radius_m)) {
-      const double distance = distance_outside(*structure.convex(slot), point_R);
+      const double distance = distance_to(*structure.convex(slot), point_R);
       if (!found.none() && distance >= least) continue;
       least = distance;
       found = slot;
     }
   };
-  for (double radius_m = 0; found.none(); radius_m = std::max(1e-3, 4 * radius_m)) look(radius_m);
-  if (least > 0) look(least);
+  for (double radius_m = 0; found.none(); radius_m = std::max(1e-3, 4 * radius_m)) search(radius_m);
+  if (least > 0) search(least);
   return found;
 }
 

@@ -1,8 +1,8 @@
-// A compound made ready to be broken again and again: adjacency and a spatial index that persist,
-// so that a break costs what it touches and not what the compound has.
+// Structure: a compound with persistent adjacency and a spatial index, so that a break costs in
+// proportion to the convexes it touches.
 //
-// Read first: Structure, then BreakEdit (breaker.h). Convexes live in slots; a slot keeps its
-// number until its convex is gone, and is not used again.
+// Begin with Structure, then BreakEdit (breaker.h). Convexes are in slots; a slot keeps its number
+// until its convex is removed, and is not reused.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace sunder {
 
 struct BreakEdit;
 
-/// A convex of a structure; Structure::compound() numbers those that are left anew.
+/// Slot of a convex in a structure; Structure::compound() renumbers the remaining convexes.
 struct ConvexSlotTag;
 using ConvexSlot = Index<ConvexSlotTag>;
 
-/// A contact as seen from one of its convexes.
+/// A bond as seen from one of its convexes.
 struct Link {
   ConvexSlot other;
   std::uint32_t face = 0;
@@ -29,57 +29,57 @@ struct Link {
   double area_m2 = 0;
 };
 
-/// Convexes, bonds and ghosts by slots and numbers; queried from any thread, changed by one.
+/// Convexes, bonds and ghosts of a compound; any number of threads may read, one may change it.
 class Structure {
  public:
   Structure() = default;
-  /// Of a compound that hangs together; parts that do not stay together until a break meets them.
+  /// Makes a structure; unconnected parts of the compound stay together until a break reaches them.
   explicit Structure(const Compound& compound);
 
-  /// Slots ever used: those below have or had a convex.
+  /// Number of slots ever used, empty ones included.
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(slots_.size()); }
-  /// Convexes that are there.
+  /// Number of convexes.
   std::uint32_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// Contacts that are there.
+  /// Number of bonds.
   std::size_t bond_count() const { return bonds_; }
-  /// Whether the world holds any of them.
+  /// True if any convex is anchored.
   bool is_anchored() const { return anchored_ > 0; }
-  /// Whether a slot is there and has a convex.
+  /// True if the slot exists and has a convex.
   bool has(ConvexSlot slot) const {
     return slot.value < slots_.size() && slots_[slot.value].convex;
   }
-  /// Null where the convex is gone.
+  /// Returns the convex of a slot; null if it was removed.
   const ConvexPtr& convex(ConvexSlot slot) const { return slots_[slot.value].convex; }
-  /// As in Compound.
+  /// Returns the anchored sides of a convex, as in Compound::anchored.
   std::uint8_t anchored(ConvexSlot slot) const { return slots_[slot.value].anchored; }
-  /// The contacts of a convex, in no order.
+  /// Returns the bonds of a convex, unordered.
   std::span<const Link> links(ConvexSlot slot) const { return slots_[slot.value].links; }
-  /// The numbers of the ghosts of a convex; ascending.
-  std::span<const std::uint32_t> ghosts_of(ConvexSlot slot) const {
+  /// Returns the indices of the ghosts of a convex; ascending.
+  std::span<const std::uint32_t> ghost_indices(ConvexSlot slot) const {
     return slots_[slot.value].ghosts;
   }
-  /// By number; its convexes are slots.
+  /// Returns a ghost by its index; its convexes are slots.
   const Ghost& ghost(std::uint32_t number) const { return ghosts_[number]; }
-  /// Calls `use` with each slot that has a convex, and the convex; ascending.
+  /// Calls `use(slot, convex)` for each slot that has a convex; ascending.
   template <class Use>
   void for_each(const Use& use) const {
     for (std::uint32_t s = 0; s < slot_count(); ++s) {
       if (slots_[s].convex) use(ConvexSlot(s), *slots_[s].convex);
     }
   }
-  /// Slots that have a convex; ascending.
+  /// Returns the slots that have a convex; ascending.
   std::vector<ConvexSlot> slots() const;
 
-  /// Slots whose boxes come within `radius_m` of a point, ascending; all if it is infinite.
+  /// Returns the slots whose boxes are within `radius_m` (maybe infinite) of a point, ascending.
   std::vector<ConvexSlot> within(const Vec3& center_R, double radius_m) const;
-  /// Carries a break out, in time proportional to what it changes.
+  /// Applies an edit, in time proportional to the change.
   void apply(const BreakEdit& edit);
-  /// The world lets go of a convex.
+  /// Removes the anchors of a convex.
   void loosen(ConvexSlot slot);
-  /// What is left, in the order of the slots.
+  /// Returns the remaining convexes, in the order of their slots.
   Compound compound() const;
-  /// Bytes of memory for each convex, its geometry included.
+  /// Returns the mean memory per convex in bytes, geometry included.
   double bytes_per_convex() const;
 
  private:
@@ -89,8 +89,8 @@ class Structure {
     std::vector<Link> links;
     std::vector<std::uint32_t> ghosts;
   };
-  /// A tree over some slots. Trees shrink from the first to the last, each less than half of the
-  /// one before, so that slots are seldom sorted anew (Bentley and Saxe 1980).
+  /// A tree over some slots. Each tree has less than half the slots of the one before it, so that
+  /// slots are seldom sorted again (Bentley and Saxe 1980).
   struct Level {
     Bvh tree;
     std::vector<ConvexSlot> slots;
@@ -104,23 +104,23 @@ class Structure {
   void add_level(std::vector<ConvexSlot> slots);
 
   std::vector<Slot> slots_;
-  std::vector<Ghost> ghosts_;  ///< Numbers are not used again.
+  std::vector<Ghost> ghosts_;  ///< Indices are not reused.
   std::vector<Level> levels_;
   std::uint32_t size_ = 0;
-  std::uint32_t anchored_ = 0;  ///< Convexes that the world holds.
+  std::uint32_t anchored_ = 0;  ///< Number of anchored convexes.
   std::size_t bonds_ = 0;
 };
 
-/// The least box around its convexes.
+/// Returns the bounding box of all convexes.
 Box bounds(const Structure& structure);
-/// How far a point is from a structure, at least; 0 inside.
-double distance_outside(const Structure& structure, const Vec3& point_R);
-/// The convex that has a point, or else is nearest to it, of a structure that is not empty; the
-/// first of them.
+/// Returns a lower bound of the distance from a point to the structure; 0 inside.
+double distance_to(const Structure& structure, const Vec3& point_R);
+/// Returns the convex that contains a point, or else the nearest one; the lowest slot if several
+/// do. The structure must not be empty.
 ConvexSlot nearest(const Structure& structure, const Vec3& point_R);
 
-/// Length of a ray inside a structure, from where it enters near `point_R` to the first gap; at
-/// most about `most_m`.
+/// Returns the length of a ray inside a structure, from the entry near `point_R` to the first gap;
+/// at most about `most_m`, 0 if the ray misses.
 double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
                        double most_m);
 

@@ -12,8 +12,9 @@ namespace {
 using Vec7 = Eigen::Matrix<double, 7, 1>;
 
 struct Knot {
+  /// Camera at a key, with all members set.
   double time_s = 0;
-  Vec7 camera;  ///< Eye, target, angle.
+  Vec7 camera;  ///< Eye, target, field of view.
 };
 
 std::vector<Knot> knots_of(std::span<const ViewKey> keys, const View& view) {
@@ -33,15 +34,15 @@ double length_s(std::span<const Knot> knots, std::size_t i) {
   return knots[i].time_s - knots[i - 1].time_s;
 }
 
-/// Of the straight line to a knot.
+/// Returns the slope of the straight line to a knot.
 Vec7 line_to(std::span<const Knot> knots, std::size_t i) {
   return (knots[i].camera - knots[i - 1].camera) / length_s(knots, i);
 }
 
 Vec7 slope_at(std::span<const Knot> knots, std::size_t i) {
   if (i == 0 || i + 1 == knots.size()) return Vec7::Zero();
-  return slope_between<Vec7>(line_to(knots, i), length_s(knots, i), line_to(knots, i + 1),
-                             length_s(knots, i + 1));
+  return monotone_slope<Vec7>(line_to(knots, i), length_s(knots, i), line_to(knots, i + 1),
+                              length_s(knots, i + 1));
 }
 
 Vec7 camera_at(std::span<const Knot> knots, double time_s) {
@@ -53,7 +54,7 @@ Vec7 camera_at(std::span<const Knot> knots, double time_s) {
   const double h = length_s(knots, n), s = (time_s - knots[n - 1].time_s) / h;
   const Vec7 line = line_to(knots, n);
   return knots[n - 1].camera + h * s * line +
-         h * bow<Vec7>(s, line, slope_at(knots, n - 1), slope_at(knots, n));
+         h * cubic_offset<Vec7>(s, line, slope_at(knots, n - 1), slope_at(knots, n));
 }
 
 }  // namespace

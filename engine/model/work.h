@@ -1,4 +1,4 @@
-// What a frame spent its time on: the stages of a step, and within them what was counted.
+// Stages of a step, and the work counted in them.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,7 @@ inline constexpr int kStages = 7;
 inline constexpr const char* kStageNames[kStages] = {"act",  "collide",   "break",   "solve",
                                                      "load", "particles", "snapshot"};
 
-/// A part of a stage: what was counted there, the same on every machine, and the time that all of
-/// it took; 0: it has none of its own.
+/// A part of a stage: a count, equal on every machine, and its time in ms; 0: not timed.
 struct WorkItem {
   Stage stage = Stage::kAct;
   const char* name = "";

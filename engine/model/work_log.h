@@ -1,4 +1,4 @@
-// How the parts of stages are counted and timed. Internal to the rooms that do the work.
+// Counting and timing of the parts of stages. Internal to the modules that do the work.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace sunder {
 
-/// Parts of stages, each once, in the order in which they first came.
+/// List of work items: each part of a stage once, in order of its first appearance.
 class WorkLog {
  public:
   void add(const WorkItem& item) {
@@ -25,14 +25,14 @@ class WorkLog {
     found->ms += item.ms;
   }
   const std::vector<WorkItem>& items() const { return items_; }
-  /// Hands over what there is, and starts anew.
+  /// Returns the items and clears the log.
   std::vector<WorkItem> take() { return std::exchange(items_, {}); }
 
  private:
   std::vector<WorkItem> items_;
 };
 
-/// A part of a stage, from here to the end of the block.
+/// Measures a part of a stage from construction to destruction.
 class WorkSpan {
  public:
   WorkSpan(WorkLog& log, Stage stage, const char* name)

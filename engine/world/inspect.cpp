@@ -4,13 +4,14 @@
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/parallel.h"
-#include "engine/world/actors/bearing.h"
+#include "engine/world/actors/load_case.h"
 
 namespace sunder {
 namespace {
 
-/// Bodies that press on each other or are joined, as long as none of them is held.
-std::vector<std::uint32_t> islands(const World& world, const std::vector<PressPoint>& presses) {
+/// Returns the island of each actor: movable bodies connected by contact forces or joints.
+std::vector<std::uint32_t> islands(const World& world,
+                                   const std::vector<ContactForce>& contact_forces) {
   DisjointSets sets(world.actors.size());
   const auto join = [&](std::uint32_t key_a, std::uint32_t key_b) {
     const Actor *a = world.actors.find(key_a), *b = world.actors.find(key_b);
@@ -18,24 +19,24 @@ std::vector<std::uint32_t> islands(const World& world, const std::vector<PressPo
     sets.join(static_cast<std::uint32_t>(world.actors.place_of(*a)),
               static_cast<std::uint32_t>(world.actors.place_of(*b)));
   };
-  for (const PressPoint& press : presses) join(press.body_tag_a, press.body_tag_b);
+  for (const ContactForce& press : contact_forces) join(press.body_tag_a, press.body_tag_b);
   for (const Joints::Live& joint : world.joints.live()) join(joint.a.key, joint.b.key);
   return sets.roots();
 }
 
-/// By slot; nothing of what no load can break.
+/// Returns the stresses of an actor by slot; empty if load cannot break it.
 std::vector<float> stresses_of(const World& world, const Breaker& breaker, const Actor& actor,
                                const Quat& rotation_WB) {
   const StressState& stress = actor.stress;
   if (!stress.breakable) return {};
-  // What falls freely feels nothing but its spin.
-  if (!actor.is_static && stress.pressing.empty() && stress.spin_R.isZero())
+  // In free fall, only spin causes stress.
+  if (!actor.is_static && stress.mean_forces.empty() && stress.spin_R.isZero())
     return std::vector<float>(actor.structure.slot_count(), 0);
-  std::vector<Load> loads;
-  return breaker.utilisation(actor.structure, bearing(world, actor, rotation_WB, loads));
+  std::vector<AppliedForce> loads;
+  return breaker.utilisation(actor.structure, make_load_case(world, actor, rotation_WB, loads));
 }
 
-/// In the order of the frame's instances.
+/// Returns stresses in the order of the frame's instances.
 std::vector<float> stresses(const World& world, const Breaker& breaker, const Frame& frame) {
   std::vector<std::vector<float>> by_actor(world.actors.size());
   for_chunks(by_actor.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
@@ -58,7 +59,7 @@ std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& bre
                                           const Frame& frame) {
   const PhysicsInspection physics = world.physics->inspect();
   auto seen = std::make_shared<Inspection>();
-  for (const PressPoint& press : physics.presses) {
+  for (const ContactForce& press : physics.contact_forces) {
     seen->contacts.push_back({press.point_W.cast<float>(), press.force_W.cast<float>(),
                               press.body_tag_a, press.body_tag_b});
   }
@@ -68,9 +69,9 @@ std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& bre
     seen->boxes.push_back({box.box_W.min.cast<float>(), box.box_W.max.cast<float>(),
                            static_cast<std::uint32_t>(world.actors.place_of(*actor))});
   }
-  seen->islands = islands(world, physics.presses);
+  seen->islands = islands(world, physics.contact_forces);
   seen->stresses = stresses(world, breaker, frame);
-  // The ground's meshes come last.
+  // Meshes of the ground come last.
   for (auto i = seen->islands.size(); i < frame.bodies.size(); ++i)
     seen->islands.push_back(static_cast<std::uint32_t>(i));
   seen->stresses.resize(frame.instances.size(), -1);

@@ -1,4 +1,4 @@
-// What happens inside, for debug views. Internal to engine/world.
+// Data for debug views. Internal to engine/world.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace sunder {
 
-/// Of the frame that has just been taken of the world; changes nothing. What load does is worked
-/// out anew for every solid that it can break, which may take longer than the frame did.
+/// Returns the inspection of a frame just taken of the world, which stays unchanged. The stress of
+/// all solids that load can break is computed anew, which may take longer than the frame did.
 std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& breaker,
                                           const Frame& frame);
 

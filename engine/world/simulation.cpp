@@ -20,7 +20,7 @@
 namespace sunder {
 namespace {
 
-/// Tells stages of a frame apart, each from where the last one ended.
+/// Measures the time of each stage of a frame, from the end of the last one.
 class StageClock {
  public:
   void end(Stage stage, FrameReport& report) {
@@ -34,18 +34,18 @@ class StageClock {
   double cpu_ms_ = cpu_ms();
 };
 
-/// Everything moves by the step; joints that bear too much break, and what flows is noted.
+/// Advances all bodies by a step, removes joints that broke, and updates plastic hinges.
 void solve(World& world) {
   const Clock& clock = world.clock;
   const SolveReport report = world.physics->solve(clock.dt_s, clock.substeps);
-  world.ledger.note(report, world.scene.gravity_W.norm() * clock.dt_s);
-  world.ledger.report.joints_lost += world.joints.take_broken(*world.physics);
-  flow(world);
+  world.conservation.add_solve(report, world.scene.gravity_W.norm() * clock.dt_s);
+  world.conservation.report.joints_lost += world.joints.take_broken(*world.physics);
+  update_hinges(world);
 }
 
 }  // namespace
 
-/// The world, and the stages with what each keeps to itself.
+/// The world and the stages.
 struct Simulation::Parts {
   World world;
   std::unique_ptr<Breaker> breaker;
@@ -53,8 +53,8 @@ struct Simulation::Parts {
   BreakStage breaks;
   LoadStage loads;
   ParticleStage particles;
-  bool started = false;   ///< Frame 0 has been given out.
-  bool inspects = false;  ///< Somebody looks inside.
+  bool started = false;   ///< Frame 0 has been returned.
+  bool inspects = false;  ///< Frames get inspections.
 
   Parts(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaks_by,
         std::unique_ptr<Particles> moves)
@@ -76,10 +76,10 @@ Simulation::Simulation(Scene scene, std::unique_ptr<Physics> physics,
   add_compounds(world, world.scene.solids);
   for (const Ball& ball : world.scene.balls) add_ball(world, ball);
   for (Actor& actor : world.actors) actor.name = actor.key;
-  for (const Joint& joint : world.scene.joints) {  // keys are indices still
+  for (const Joint& joint : world.scene.joints) {  // keys are still indices
     world.joints.add(*world.physics, world.actors, joint);
   }
-  take_hold(world);
+  start_moves(world);
   parts_->loads.prepare(world, *parts_->breaker);
 }
 
@@ -101,10 +101,10 @@ FramePtr Simulation::next() {
   started = true;
   const TraceSpan span(kStageNames[static_cast<int>(Stage::kSnapshot)]);
   StageClock clock;
-  for (const WorkItem& item : world.physics->take_work()) world.ledger.work.add(item);
+  for (const WorkItem& item : world.physics->take_work()) world.conservation.work.add(item);
   auto frame = snapshot(world, particles, act.shots_to_come(world.scene),
-                        breaks.waiting() + loads.waiting());
-  frame->report.work = world.ledger.work.take();
+                        breaks.deferred() + loads.deferred());
+  frame->report.work = world.conservation.work.take();
   clock.end(Stage::kSnapshot, frame->report);
   if (inspects) frame->inspection = sunder::inspect(world, *breaker, *frame);
   return frame;
@@ -118,9 +118,9 @@ void Simulation::advance() {
   const auto timed = [&](Stage stage, const auto& work) {
     const TraceSpan span(kStageNames[static_cast<int>(stage)]);
     work();
-    clock.end(stage, world.ledger.report);
+    clock.end(stage, world.conservation.report);
   };
-  std::vector<Impact> impacts;  // of blasts
+  std::vector<ActorImpact> impacts;  // of blasts
   timed(Stage::kAct, [&] { impacts = parts.act.run(world); });
   timed(Stage::kCollide, [&] { world.physics->collide(world.clock.horizon_s()); });
   timed(Stage::kBreak, [&] { parts.breaks.run(world, breaker, impacts); });
@@ -129,12 +129,13 @@ void Simulation::advance() {
   timed(Stage::kLoad, [&] { parts.loads.run(world, breaker); });
   timed(Stage::kParticles, [&] {
     if (!parts.particles.any() || !world.clock.ends_frame()) return;
-    // What a blast laid bare crumbles, and flies, by the speed with which that drives it apart.
-    const bool waits = parts.act.blasts();
-    WorkSpan span(world.ledger.work, Stage::kParticles, "particles");
-    parts.particles.run(world, waits ? Exposed{} : std::exchange(*world.exposed, {}));
+    // Faces exposed by a blast emit particles after the blast's impulse, at the speed of their
+    // parting.
+    const bool delayed = parts.act.any_blast();
+    WorkSpan span(world.conservation.work, Stage::kParticles, "particles");
+    parts.particles.run(world, delayed ? Exposed{} : std::exchange(*world.exposed, {}));
     span.count(parts.particles.alive());
-    if (waits) world.exposed->wait(world.clock.frame_s());
+    if (delayed) world.exposed->delay(world.clock.frame_s());
   });
   ++world.clock.step;
 }

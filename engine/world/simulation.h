@@ -1,4 +1,4 @@
-// The simulation: a scene advanced step by step, seen as frames.
+// The simulation: advances a scene step by step and returns frames.
 //
 // Read first: Simulation::advance() in simulation.cpp, the list of a step's stages.
 #pragma once
@@ -13,19 +13,19 @@
 
 namespace sunder {
 
-/// A FrameSource that simulates: frame 0 is the scene as given, then one frame every 1/60 s until
-/// the scene's duration has passed.
+/// Frame source that simulates: frame 0 is the scene as given, followed by one frame every 1/60 s
+/// for the scene's duration.
 class Simulation final : public FrameSource {
  public:
-  /// Without `particles` there is no debris and no dust.
+  /// Without `particles` there are neither debris nor dust.
   Simulation(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaker,
              std::unique_ptr<Particles> particles = nullptr);
   ~Simulation() override;
 
   FramePtr next() override;
-  /// Frames from now on say what happens inside (Frame::inspection); the run is the same.
+  /// Adds inspections to all later frames (Frame::inspection); the run is unchanged.
   void inspect();
-  /// One step of the scene's dt.
+  /// Advances by one step of the scene's dt.
   void advance();
 
  private:

@@ -15,9 +15,15 @@ namespace {
 constexpr std::size_t kBodiesAChunk = 64;
 
 FrameBody body_of(const Actor& actor, const BodyState& state) {
-  return {
-      actor.key,       state.X_WB,   actor.weight.com_R, state.velocity_W, state.angular_velocity_W,
-      actor.is_static, state.asleep, actor.shown_key,    actor.name};
+  return {actor.key,
+          state.X_WB,
+          actor.weight.com_R,
+          state.velocity_W,
+          state.angular_velocity_W,
+          actor.is_static,
+          state.asleep,
+          actor.last_frame_key,
+          actor.name};
 }
 
 void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {
@@ -36,7 +42,7 @@ void count(const World& world, const Actor& actor, const FrameBody& body, FrameR
   report.potential_J -= actor.weight.mass_kg * world.scene.gravity_W.dot(body.X_WB.position);
 }
 
-/// What a chunk of actors adds to the frame.
+/// Contribution of a chunk of actors to the frame.
 struct Part {
   std::vector<Instance> instances;
   FrameReport report;
@@ -55,7 +61,7 @@ void add(const Part& part, Frame& frame) {
   report.counts.awake += part.report.counts.awake;
 }
 
-/// By several threads, as it is mostly waiting for memory; sums are those of fixed chunks.
+/// Adds all bodies, in parallel, as the work is bound by memory; sums are over fixed chunks.
 void add_bodies(const World& world, Frame& frame) {
   const BodyStates states = world.physics->states();
   const std::size_t count_all = world.actors.size();
@@ -75,7 +81,7 @@ void add_bodies(const World& world, Frame& frame) {
   for (const Part& part : parts) add(part, frame);
 }
 
-/// The last body, where there are meshes of the ground.
+/// Adds the ground's meshes, if any, as the last body.
 void add_landscape(const World& world, Frame& frame) {
   if (world.landscape.meshes.empty()) return;
   const auto index = static_cast<std::uint32_t>(frame.bodies.size());
@@ -89,7 +95,7 @@ void add_landscape(const World& world, Frame& frame) {
 
 std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
                                 std::span<const Shot> shots_to_come, std::uint32_t carried_over) {
-  Ledger& ledger = world.ledger;
+  Conservation& conservation = world.conservation;
   draw_bends(world);
   world.meshes.draw(world.actors);
   auto frame = std::make_shared<Frame>();
@@ -101,22 +107,22 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   frame->names = world.names;
   frame->paints = world.paints;
   frame->meshes = world.meshes.publish();
-  frame->report = std::exchange(ledger.report, {});
+  frame->report = std::exchange(conservation.report, {});
   FrameReport& report = frame->report;
   add_bodies(world, *frame);
   add_landscape(world, *frame);
-  for (Actor& actor : world.actors) actor.shown_key = actor.key;
+  for (Actor& actor : world.actors) actor.last_frame_key = actor.key;
   particles.show(*frame);
-  report.mass_kg += ledger.debris_mass_kg + ledger.removed_mass_kg;
+  report.mass_kg += conservation.debris_mass_kg + conservation.removed_mass_kg;
   for (const Shot& shot : shots_to_come) {
     report.mass_kg += ball_mass_kg(shot.ball, *world.materials);
     for (const Solid& link : shot.links)
-      report.mass_kg += weigh(link.compound, *world.materials).mass_kg;
+      report.mass_kg += mass_of(link.compound, *world.materials).mass_kg;
   }
   report.penetrations_m = world.physics->penetrations();
   report.carried_over = carried_over;
-  ledger.close(report, frame->index == 0);
-  frame->breaks = std::exchange(ledger.breaks, {});
+  conservation.end_frame(report, frame->index == 0);
+  frame->breaks = std::exchange(conservation.breaks, {});
   return frame;
 }
 

@@ -1,4 +1,4 @@
-// Stage `snapshot`: the frame as it stands, for the sinks. Internal to engine/world.
+// Stage `snapshot`: makes a frame of the current state, for the sinks. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace sunder {
 
-/// Takes what the ledger has of the frame. Mass counts `shots_to_come`.
+/// Returns a new frame, and resets the counts of the current frame in the conservation records. The
+/// mass of `shots_to_come` is included.
 std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
                                 std::span<const Shot> shots_to_come, std::uint32_t carried_over);
 

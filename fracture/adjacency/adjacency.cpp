@@ -1,5 +1,5 @@
-// Two passes, each through memory in order. Faces are laid flat while their convexes go by, into
-// bins by the names of their planes; then each bin, small enough to stay near, is sorted and swept.
+// Two passes, each through memory in order: faces are projected in the order of their convexes,
+// into bins by plane id; then each bin, small enough for the cache, is sorted and swept.
 #include "fracture/adjacency/adjacency.h"
 
 #include <algorithm>
@@ -16,16 +16,16 @@
 namespace sunder::fracture {
 namespace {
 
-/// Faces of some planes.
+/// Projected faces of some of the planes.
 struct Bin {
-  std::vector<FlatFace> faces;
+  std::vector<ProjectedFace> faces;
   std::vector<Vec2> points;
 
   void add(const Convex& convex, const FaceEntry& entry) {
     const Vec3& normal = convex.polyhedron.faces[entry.face].plane.normal;
     int dropped = 0;
     const double longest = normal.cwiseAbs().maxCoeff(&dropped);
-    FlatFace flat;
+    ProjectedFace flat;
     flat.id = entry.id;
     flat.scale = 1 / longest;
     flat.size = size_of(convex);
@@ -33,7 +33,7 @@ struct Bin {
     flat.face = entry.face;
     flat.first_point = static_cast<std::uint32_t>(points.size());
     flat.cap = entry.cap;
-    lay_flat(convex, entry.face, entry.cap, dropped, points);
+    project_face(convex, entry.face, entry.cap, dropped, points);
     flat.point_count = static_cast<std::uint32_t>(points.size()) - flat.first_point;
     flat.dropped = static_cast<std::uint8_t>(dropped);
     flat.known = entry.known;
@@ -41,7 +41,7 @@ struct Bin {
   }
 };
 
-/// All contacts, where `add(begin, end, bins)` lays the faces of items [begin, end) flat.
+/// Returns all contacts; `add(begin, end, bins)` projects the faces of items [begin, end).
 template <class Add>
 std::vector<Bond> contacts(std::span<const ConvexPtr> convexes, std::size_t items,
                            std::size_t items_at_once, std::size_t faces, const Add& add) {
@@ -59,12 +59,12 @@ std::vector<Bond> contacts(std::span<const ConvexPtr> convexes, std::size_t item
     add(begin, end, flat[chunk]);
   });
   const auto sweep = [&](std::size_t b, std::size_t, std::vector<Bond>& found) {
-    std::vector<FlatFace> in_bin;
+    std::vector<ProjectedFace> in_bin;
     std::size_t count = 0;
     for (const std::vector<Bin>& chunk : flat) count += chunk[b].faces.size();
     in_bin.reserve(count);
     for (const std::vector<Bin>& chunk : flat) {
-      for (FlatFace face : chunk[b].faces) {
+      for (ProjectedFace face : chunk[b].faces) {
         face.points = chunk[b].points.data() + face.first_point;
         in_bin.push_back(face);
       }
@@ -76,9 +76,9 @@ std::vector<Bond> contacts(std::span<const ConvexPtr> convexes, std::size_t item
   return bonds;
 }
 
-/// Asks for the convexes after the first: they are strewn over memory, and waiting for them is most
-/// of the work.
-void fetch_ahead(std::span<const ConvexPtr> convexes) {
+/// Prefetches the convexes after the first: they are scattered, and cache misses are most of the
+/// cost.
+void prefetch_convexes(std::span<const ConvexPtr> convexes) {
   constexpr std::size_t kHead = 6, kBody = 3;
   if (kHead < convexes.size()) __builtin_prefetch(convexes[kHead].get());
   if (kBody >= convexes.size()) return;
@@ -165,7 +165,7 @@ std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes) {
                   [&](std::size_t begin, std::size_t end, std::vector<Bin>& bins) {
                     std::vector<FaceEntry> entries;
                     for (std::size_t c = begin; c < end; ++c) {
-                      fetch_ahead(convexes.subspan(c, end - c));
+                      prefetch_convexes(convexes.subspan(c, end - c));
                       entries.clear();
                       add_faces(*convexes[c], static_cast<std::uint32_t>(c), entries);
                       for (const FaceEntry& entry : entries) add_to_bins(*convexes[c], entry, bins);

@@ -1,4 +1,4 @@
-// Sorting what is spread evenly.
+// Sorting of evenly distributed items in linear time.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 
 namespace sunder::fracture {
 
-/// Sorts by scattering into as many buckets as there are items, each then sorted on its own: in
-/// linear time if `bucket` (below the count it is given) spreads them. Items of different buckets
-/// keep the order of their buckets.
+/// Sorts `items` by distributing them to `buckets` buckets and sorting each bucket by `less`: in
+/// linear time if `bucket`, which maps an item to a number below `buckets`, is evenly distributed.
+/// Items of different buckets are in the order of their buckets.
 template <class T, class Bucket, class Less>
 void bucket_sort(std::vector<T>& items, std::size_t buckets, const Bucket& bucket,
                  const Less& less) {

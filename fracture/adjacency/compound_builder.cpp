@@ -14,17 +14,17 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kParallel = 1e-6;  // of unit normals: how far their sum may be from zero
+constexpr double kParallel = 1e-6;  // Length of the sum of two opposite unit normals.
 
-/// Faces joined into planes: union-find where every face also knows on which side of its plane it
-/// is, relative to its parent.
+/// Sets of coplanar faces: a union-find structure in which every face also stores its side of the
+/// plane relative to its parent.
 class Planes {
  public:
   explicit Planes(std::size_t faces) : parent_(faces), flipped_(faces, 0) {
     for (std::size_t i = 0; i < faces; ++i) parent_[i] = static_cast<std::uint32_t>(i);
   }
 
-  /// Puts two faces into one plane, on opposite sides.
+  /// Joins the planes of two faces, which are on opposite sides.
   void join(std::uint32_t a, std::uint32_t b) {
     const auto [root_a, side_a] = find(a);
     const auto [root_b, side_b] = find(b);
@@ -45,8 +45,8 @@ class Planes {
   std::vector<std::uint8_t> flipped_;
 };
 
-/// Whether face `f` of `a` and face `g` of `b` lie in one plane, back to back.
-bool back_to_back(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedron& b,
+/// Returns true if face `f` of `a` and face `g` of `b` lie in one plane with opposite normals.
+bool are_opposite(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedron& b,
                   std::size_t g, double tolerance) {
   const Plane& plane = a.faces[f].plane;
   if ((plane.normal + b.faces[g].plane.normal).squaredNorm() > kParallel * kParallel) return false;
@@ -56,37 +56,36 @@ bool back_to_back(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedr
   return true;
 }
 
-/// Joins the faces by which two convexes may touch.
+/// Joins the planes of faces with which two convexes may touch.
 void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPolyhedron& b,
                 std::uint32_t first_b, double tolerance, Planes& planes) {
   for (std::uint32_t f = 0; f < a.faces.size(); ++f) {
-    // Unless all of b is beyond face f, they do not touch there.
+    // They can touch in face f only if all of b is beyond its plane.
     if (a.faces[f].plane.distance(b.vertices[0]) < -tolerance) continue;
     for (std::uint32_t g = 0; g < b.faces.size(); ++g) {
-      if (back_to_back(a, f, b, g, tolerance)) planes.join(first_a + f, first_b + g);
+      if (are_opposite(a, f, b, g, tolerance)) planes.join(first_a + f, first_b + g);
     }
   }
 }
 
-/// Gives the caps of a visual mesh the new names of the faces that they lie in; those that lie in
-/// none get `spare` names.
-std::shared_ptr<const PolygonMesh> renamed_caps(const PolygonMesh& visual,
-                                                std::span<const PlaneId> old_names,
-                                                const ConvexPolyhedron& renamed,
-                                                std::uint64_t& spare) {
+/// Returns a mesh whose caps have the new ids of the faces that they lie in; caps in no face get
+/// unused ids, after `spare`.
+std::shared_ptr<const PolygonMesh> caps_with_new_ids(const PolygonMesh& visual,
+                                                     std::span<const PlaneId> old_ids,
+                                                     const ConvexPolyhedron& renamed,
+                                                     std::uint64_t& spare) {
   auto mesh = std::make_shared<PolygonMesh>(visual);
   for (std::size_t cap = first_cap(*mesh); cap < mesh->faces.size(); ++cap) {
     PlaneId& id = mesh->faces[cap].id;
-    const auto old = std::find(old_names.begin(), old_names.end(), id);
-    id = old == old_names.end()
-             ? PlaneId{2 * ++spare}
-             : renamed.faces[static_cast<std::size_t>(old - old_names.begin())].id;
+    const auto old = std::find(old_ids.begin(), old_ids.end(), id);
+    id = old == old_ids.end() ? PlaneId{2 * ++spare}
+                              : renamed.faces[static_cast<std::size_t>(old - old_ids.begin())].id;
   }
   return mesh;
 }
 
-/// Names the planes of all faces; those back to back share one, and there visual meshes get caps.
-void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolerance) {
+/// Assigns plane ids to all faces; faces in contact share a plane, and meshes get caps there.
+void assign_plane_ids(std::vector<Part>& parts, const PartPairs& pairs, double tolerance) {
   std::vector<std::uint32_t> first_face;
   std::uint32_t faces = 0;
   for (const Part& part : parts) {
@@ -98,17 +97,17 @@ void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolera
     join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
                planes);
   }
-  std::vector<std::uint32_t> sharing(faces, 0);  // by the first face of a plane: how many do
+  std::vector<std::uint32_t> sharing(faces, 0);  // Number of faces in a plane, by its first face.
   for (std::uint32_t face = 0; face < faces; ++face) ++sharing[planes.find(face).first];
   std::uint64_t spare = faces;
-  std::vector<PlaneId> old_names;
+  std::vector<PlaneId> old_ids;
   std::vector<std::uint32_t> flush;
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
-    old_names.clear();
+    old_ids.clear();
     flush.clear();
     for (std::uint32_t f = 0; f < parts[i].polyhedron.faces.size(); ++f) {
       PlaneId& id = parts[i].polyhedron.faces[f].id;
-      old_names.push_back(id);
+      old_ids.push_back(id);
       const auto [root, side] = planes.find(first_face[i] + f);
       id = {2 * (std::uint64_t{root} + 1) + side};
       if (sharing[root] > 1) flush.push_back(f);
@@ -116,12 +115,12 @@ void name_planes(std::vector<Part>& parts, const PartPairs& pairs, double tolera
     std::shared_ptr<const PolygonMesh>& visual = parts[i].visual;
     if (!visual) continue;
     if (first_cap(*visual) < visual->faces.size())
-      visual = renamed_caps(*visual, old_names, parts[i].polyhedron, spare);
+      visual = caps_with_new_ids(*visual, old_ids, parts[i].polyhedron, spare);
     visual = with_flush_caps(std::move(visual), parts[i].polyhedron, flush, tolerance);
   }
 }
 
-/// A mesh whose caps of one name look broken; itself if they do.
+/// Returns a mesh whose caps of one plane id show broken material; the mesh itself if they do.
 std::shared_ptr<const PolygonMesh> with_inner_caps(std::shared_ptr<const PolygonMesh> visual,
                                                    PlaneId id) {
   for (std::size_t cap = first_cap(*visual); cap < visual->faces.size(); ++cap) {
@@ -134,7 +133,7 @@ std::shared_ptr<const PolygonMesh> with_inner_caps(std::shared_ptr<const Polygon
   return visual;
 }
 
-/// Faces that a neighbour covers were never part of the surface: laid bare, they look broken.
+/// Marks faces that a neighbour covers as interior: if exposed, they show broken material.
 void mark_inner_faces(Compound& compound) {
   const auto hidden = hidden_faces(compound);
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
@@ -155,11 +154,11 @@ void mark_inner_faces(Compound& compound) {
 Compound make_compound(std::vector<Part> parts, double tolerance_m) {
   PartPairs pairs = find_pairs(parts, tolerance_m);
   PartPairs overlaps = find_overlaps(parts, pairs, tolerance_m);
-  if (part_deep_overlaps(parts, overlaps, tolerance_m)) {
+  if (cut_deep_overlaps(parts, overlaps, tolerance_m)) {
     pairs = find_pairs(parts, tolerance_m);
     overlaps = find_overlaps(parts, pairs, tolerance_m);
   }
-  name_planes(parts, pairs, tolerance_m);
+  assign_plane_ids(parts, pairs, tolerance_m);
   Compound compound;
   for (Part& part : parts) {
     compound.convexes.push_back(

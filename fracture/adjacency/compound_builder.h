@@ -1,5 +1,5 @@
-// Convexes that touch or overlap become a compound: coplanar faces get shared plane ids, faces that
-// touch bonds, and what overlaps ghosts.
+// Builds a compound of convexes that touch or overlap: coplanar faces get shared plane ids, faces
+// that touch get bonds, and overlaps get ghosts.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@ namespace sunder::fracture {
 
 using sunder::Part;
 
-/// A compound of parts. Faces within `tolerance_m` of one plane share a plane id; touching pairs
-/// become bonds, and parts that overlap by more than the tolerance ghosts. Up to kDeepestGhost
-/// (overlap.h) parts may overlap in one place; a part that would be one more is cut, and keeps what
-/// those before it do not fill. Throws InputError if overlaps are too many.
+/// Returns a compound of `parts`. Faces within `tolerance_m` of one plane share a plane id;
+/// touching pairs get bonds, and parts that overlap by more than the tolerance get ghosts. Up to
+/// kDeepestGhost (overlap.h) parts may overlap in one place; of a further part only what the parts
+/// before it do not fill is kept. Throws InputError if there are too many overlaps.
 Compound make_compound(std::vector<Part> parts, double tolerance_m = 1e-6);
 
-/// The connected parts of a compound, in the order of their first convexes; itself if it is one.
+/// Returns the islands of a compound, in the order of their first convexes.
 std::vector<Compound> split_islands(const Compound& compound);
 
 }  // namespace sunder::fracture

@@ -8,7 +8,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Searches that become one where they meet.
+/// Simultaneous breadth-first searches, which merge where they meet.
 class Searches {
  public:
   Searches(std::span<const std::uint32_t> seeds, const Neighbours& neighbours)
@@ -47,7 +47,7 @@ class Searches {
     neighbours_(found_[s][next_[s]++], [&](std::uint32_t node) { reach(node, merged_.root(s)); });
   }
 
-  /// Search `s` comes to a node: a new one, or another search's, which it then is one with.
+  /// Search `s` reaches a node; if another search owns it, the two searches merge.
   void reach(std::uint32_t node, std::uint32_t s) {
     const auto [it, is_new] = owner_.emplace(node, s);
     if (is_new) {
@@ -57,7 +57,7 @@ class Searches {
     const std::uint32_t other = merged_.root(it->second);
     if (other == s) return;
     const std::uint32_t into = std::min(s, other), from = std::max(s, other);
-    // What was expanded stays in front of what was not.
+    // Expanded nodes stay before the others.
     const auto front = found_[into].begin() + static_cast<std::ptrdiff_t>(next_[into]);
     found_[into].insert(front, found_[from].begin(), found_[from].end());
     next_[into] += next_[from];
@@ -69,7 +69,7 @@ class Searches {
   const Neighbours& neighbours_;
   std::vector<std::vector<std::uint32_t>> found_;  ///< Per search; the first next_ are expanded.
   std::vector<std::size_t> next_;
-  DisjointSets merged_;  ///< Searches that met; the least number stands for all of them.
+  DisjointSets merged_;  ///< Merged searches; the least number represents them.
   std::unordered_map<std::uint32_t, std::uint32_t> owner_;
 };
 

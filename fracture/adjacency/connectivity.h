@@ -1,5 +1,5 @@
-// Islands after a break without visiting what did not change: searches start beside the cut, and
-// stop as soon as all but one have come to an end or met.
+// Connected components after a break, at a cost that does not depend on the size of the structure:
+// searches start beside the cut and stop when all but one have ended or met.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace sunder::fracture {
 
-/// What a search found.
+/// Result of a search.
 struct Separation {
-  std::vector<std::vector<std::uint32_t>> islands;  ///< Complete ones, each ascending.
-  bool bulk = false;  ///< Whether one more island remains, not searched to its end.
+  std::vector<std::vector<std::uint32_t>> islands;  ///< Complete islands, each ascending.
+  bool bulk = false;  ///< True if one more island remains, which was not searched completely.
 };
 
 /// Calls `visit` with each neighbour of a node.
 using Neighbours =
     std::function<void(std::uint32_t node, const std::function<void(std::uint32_t)>& visit)>;
 
-/// The islands that contain the `seeds`. Searches take turns, a node each, so the cost is that of
-/// all islands but the largest, twice.
+/// Returns the islands that contain `seeds`. Searches advance in turns, one node each, so the cost
+/// is about twice that of all islands but the largest.
 Separation separate(std::span<const std::uint32_t> seeds, const Neighbours& neighbours);
 
 }  // namespace sunder::fracture

@@ -1,5 +1,4 @@
-// Read first: with_flush_caps(). What is joined is told by its edges: those that two of the faces
-// pass, once either way, are within it.
+// Read first: with_flush_caps(). Edges that two joined faces share are inside the cap.
 #include "fracture/adjacency/flush_caps.h"
 
 #include <algorithm>
@@ -11,10 +10,10 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kSameNormal = 1e-6;  // of unit normals: how far they may be apart
+constexpr double kSameNormal = 1e-6;  // Distance of two equal unit normals.
 constexpr std::uint32_t kNotFlush = 0xffffffff;
 
-using OutlineEdge = std::pair<std::uint32_t, std::uint32_t>;  // from a vertex to a vertex
+using OutlineEdge = std::pair<std::uint32_t, std::uint32_t>;  // From vertex to vertex.
 
 bool lies_in(const PolygonMesh& mesh, const PolygonMesh::Face& face, const Plane& plane,
              double tolerance_m) {
@@ -27,7 +26,7 @@ bool lies_in(const PolygonMesh& mesh, const PolygonMesh::Face& face, const Plane
   return true;
 }
 
-/// A mesh in the making: faces of another, some of them joined.
+/// Mesh under construction: copies of another mesh's faces, some of them joined.
 class CappedMesh {
  public:
   explicit CappedMesh(const PolygonMesh& old) : old_(old) { mesh_.vertices = old.vertices; }
@@ -42,10 +41,10 @@ class CappedMesh {
     }
   }
 
-  /// The outline of some faces, contour by contour.
+  /// Adds one cap with the common outline of some faces, contour by contour.
   void add_joined(std::span<const PolygonMesh::Face> faces, const ConvexPolyhedron::Face& in) {
     begin(in.plane, in.id, FaceKind::kInterior);
-    std::map<OutlineEdge, std::uint32_t> corner_of;  // where the edge starts
+    std::map<OutlineEdge, std::uint32_t> corner_of;  // Corner at the start of an edge.
     for (const PolygonMesh::Face& face : faces) {
       if (face.kind == FaceKind::kSurface) mesh_.faces.back().kind = face.kind;
       if (face.mark != 0) mesh_.faces.back().mark = face.mark;
@@ -56,7 +55,8 @@ class CappedMesh {
       std::uint32_t count = 0;
       for (std::uint32_t at = start; count == 0 || at != start; ++count) {
         const auto edge = corner_of.lower_bound({at, 0});
-        if (edge == corner_of.end() || edge->first.first != at) break;  // not watertight
+        if (edge == corner_of.end() || edge->first.first != at)
+          break;  // The mesh is not watertight.
         add_corner(edge->second);
         at = edge->first.second;
         corner_of.erase(edge);
@@ -83,7 +83,7 @@ class CappedMesh {
     ++mesh_.faces.back().contour_count;
   }
 
-  /// Adds the edges of a face, and takes out those that one before it passes the other way.
+  /// Adds the edges of a face, and removes those of earlier faces in the opposite direction.
   void add_edges(const PolygonMesh::Face& face,
                  std::map<OutlineEdge, std::uint32_t>& corner_of) const {
     for (std::uint32_t k = face.first_contour; k < face.first_contour + face.contour_count; ++k) {
@@ -101,8 +101,8 @@ class CappedMesh {
   PolygonMesh mesh_;
 };
 
-/// For each face of a mesh the one of `flush_faces` in whose plane it lies, or kNotFlush; none
-/// where no surface does.
+/// Returns, per face of a mesh, the face of `flush_faces` in whose plane it lies, or kNotFlush.
+/// Caps count only in planes that have surface too.
 std::vector<std::uint32_t> find_flush(const PolygonMesh& visual, const ConvexPolyhedron& polyhedron,
                                       std::span<const std::uint32_t> flush_faces,
                                       double tolerance_m) {

@@ -5,7 +5,7 @@
 namespace sunder::fracture {
 
 std::vector<std::uint32_t> find_islands(std::size_t count, std::span<const Bond> bonds) {
-  // The least is the root, so roots come first.
+  // The least member is the root, so the root is numbered first.
   DisjointSets sets(count);
   for (const Bond& bond : bonds) sets.join(bond.a, bond.b);
   std::vector<std::uint32_t> island(count);

@@ -1,4 +1,4 @@
-// Step 5 of a fracture: convexes that no longer touch part company (paper 3.1).
+// Step 5 of a fracture: connected components of convexes (paper 3.1).
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace sunder::fracture {
 
-/// The island of each of `count` convexes joined by `bonds`: islands are numbered in the order of
-/// their first convex.
+/// Returns the island of each of `count` convexes joined by `bonds`; islands are numbered in the
+/// order of their first convexes.
 std::vector<std::uint32_t> find_islands(std::size_t count, std::span<const Bond> bonds);
 
-/// The same for a compound, whose convexes hold together where they overlap too.
+/// Returns the island of each convex of a compound, joined by bonds and ghosts; numbered as above.
 std::vector<std::uint32_t> find_islands(const Compound& compound);
 
 }  // namespace sunder::fracture

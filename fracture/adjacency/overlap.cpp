@@ -22,14 +22,14 @@ double rounding(const ConvexPolyhedron& convex) {
   return 4e-15 * farthest;
 }
 
-/// How far `convex` reaches behind a plane; negative if it does not.
+/// Returns the depth of `convex` behind a plane; negative if it is not behind.
 double depth_behind(const Plane& plane, const ConvexPolyhedron& convex) {
   double least = plane.distance(convex.vertices[0]);
   for (const Vec3& vertex : convex.vertices) least = std::min(least, plane.distance(vertex));
   return -least;
 }
 
-/// Whether some face of `a` has no more than `tolerance` of `b` behind it.
+/// Returns true if some face of `a` has `b` behind it by no more than `tolerance`.
 bool face_separates(const ConvexPolyhedron& a, const ConvexPolyhedron& b, double tolerance) {
   return std::any_of(a.faces.begin(), a.faces.end(), [&](const ConvexPolyhedron::Face& face) {
     return depth_behind(face.plane, b) <= tolerance;
@@ -44,9 +44,9 @@ Box grown(const Box& box, double by) {
   return {box.min - Vec3::Constant(by), box.max + Vec3::Constant(by)};
 }
 
-/// Cuts off what of `solid` lies outside `other`, in convex parts.
-void peel(ConvexPolyhedron solid, const ConvexPolyhedron& other, double tolerance_m,
-          std::vector<ConvexPolyhedron>& outside) {
+/// Appends convex parts of `solid` that lie outside `other`.
+void subtract_convex(ConvexPolyhedron solid, const ConvexPolyhedron& other, double tolerance_m,
+                     std::vector<ConvexPolyhedron>& outside) {
   ClipScratch scratch;
   ConvexPolyhedron part;
   for (const ConvexPolyhedron::Face& face : other.faces) {
@@ -65,8 +65,8 @@ void peel(ConvexPolyhedron solid, const ConvexPolyhedron& other, double toleranc
   }
 }
 
-/// Whether more than kDeepestGhost solids meet: `common` of `count`, and some of `others` from
-/// `first` on.
+/// Returns true if more than kDeepestGhost polyhedra intersect: `common` is the intersection of
+/// `count`; `others` from `first` on are added to it.
 bool is_too_deep(const ConvexPolyhedron& common, std::size_t count,
                  const std::vector<const ConvexPolyhedron*>& others, std::size_t first,
                  double tolerance_m) {
@@ -78,7 +78,7 @@ bool is_too_deep(const ConvexPolyhedron& common, std::size_t count,
   return false;
 }
 
-/// The ghost that `common` is of some convexes.
+/// Returns the ghost of the convexes `of`, whose intersection is `common`.
 Ghost make_ghost(std::span<const ConvexPtr> convexes, ConvexPolyhedron common,
                  std::vector<std::uint32_t> of) {
   const bool weighs = std::all_of(of.begin(), of.end(),
@@ -114,7 +114,7 @@ std::vector<ConvexPolyhedron> subtract(const ConvexPolyhedron& solid,
       if (overlap(part, *other, tolerance_m).empty()) {
         next.push_back(std::move(part));
       } else {
-        peel(std::move(part), *other, tolerance_m, next);
+        subtract_convex(std::move(part), *other, tolerance_m, next);
       }
     }
     std::swap(left, next);
@@ -156,8 +156,9 @@ PartPairs find_overlaps(std::span<const Part> parts, const PartPairs& pairs, dou
   return found;
 }
 
-bool part_deep_overlaps(std::vector<Part>& parts, const PartPairs& overlaps, double tolerance_m) {
-  std::vector<std::vector<std::uint32_t>> before(parts.size());  // per part: what it overlaps
+bool cut_deep_overlaps(std::vector<Part>& parts, const PartPairs& overlaps, double tolerance_m) {
+  std::vector<std::vector<std::uint32_t>> before(
+      parts.size());  // Per part: the earlier parts that it overlaps.
   std::size_t most = 0;
   for (const auto& [a, b] : overlaps) {
     if (parts[a].visual || parts[b].visual) continue;

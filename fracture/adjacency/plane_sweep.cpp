@@ -1,5 +1,5 @@
-// Read first: sweep_planes(). A plane's faces are sorted along one axis, and those that overlap
-// along it are compared.
+// Read first: sweep_planes(). The faces of a plane are sorted along one axis, and those that
+// overlap along it are compared.
 #include "fracture/adjacency/plane_sweep.h"
 
 #include <algorithm>
@@ -14,41 +14,41 @@
 namespace sunder::fracture {
 namespace {
 
-// Corners of caps this near are one, over the size of the smaller convex: from either side, the
-// cuts that made them came in another order.
+// Corners of caps within this distance, over the size of the smaller convex, are identical: the
+// cuts that made the caps came in different order on the two sides.
 constexpr double kSameMeshCorner = 1e-10;
 
-/// Finds the contacts within planes.
+/// Finds the contacts within one plane after the other.
 class PlaneSweep {
  public:
-  PlaneSweep(std::span<const ConvexPtr> convexes, std::vector<FlatFace>& faces)
+  PlaneSweep(std::span<const ConvexPtr> convexes, std::vector<ProjectedFace>& faces)
       : convexes_(convexes), faces_(faces) {}
 
-  /// `plane` numbers the faces of one plane, either side.
+  /// Appends the contacts of the faces numbered in `plane`, which are all in one plane.
   void run(std::span<const std::uint32_t> plane, std::vector<Bond>& bonds) {
     if (plane.size() < 2) return;
-    for (const std::uint32_t i : plane) lay_again(faces_[i], faces_[plane[0]].dropped);
+    for (const std::uint32_t i : plane) reproject(faces_[i], faces_[plane[0]].dropped);
     if (plane.size() == 2) return match(faces_[plane[0]], faces_[plane[1]], bonds);
-    spread_.clear();
+    extents_.clear();
     for (const std::uint32_t i : plane) {
-      Spread spread{i, Vec2::Constant(1e300), Vec2::Constant(-1e300)};
+      Extent extent{i, Vec2::Constant(1e300), Vec2::Constant(-1e300)};
       for (const Vec2& point : faces_[i].polygon()) {
-        spread.min = spread.min.cwiseMin(point);
-        spread.max = spread.max.cwiseMax(point);
+        extent.min = extent.min.cwiseMin(point);
+        extent.max = extent.max.cwiseMax(point);
       }
-      spread_.push_back(spread);
+      extents_.push_back(extent);
     }
-    std::sort(spread_.begin(), spread_.end(),
-              [](const Spread& a, const Spread& b) { return a.min.x() < b.min.x(); });
+    std::sort(extents_.begin(), extents_.end(),
+              [](const Extent& a, const Extent& b) { return a.min.x() < b.min.x(); });
     active_.clear();
-    for (std::uint32_t i = 0; i < spread_.size(); ++i) {
+    for (std::uint32_t i = 0; i < extents_.size(); ++i) {
       std::size_t kept = 0;
       for (const std::uint32_t other : active_) {
-        if (spread_[other].max.x() <= spread_[i].min.x()) continue;
+        if (extents_[other].max.x() <= extents_[i].min.x()) continue;
         active_[kept++] = other;
-        const bool apart = spread_[other].max.y() <= spread_[i].min.y() ||
-                           spread_[i].max.y() <= spread_[other].min.y();
-        if (!apart) match(faces_[spread_[other].face], faces_[spread_[i].face], bonds);
+        const bool apart = extents_[other].max.y() <= extents_[i].min.y() ||
+                           extents_[i].max.y() <= extents_[other].min.y();
+        if (!apart) match(faces_[extents_[other].face], faces_[extents_[i].face], bonds);
       }
       active_.resize(kept);
       active_.push_back(i);
@@ -56,47 +56,47 @@ class PlaneSweep {
   }
 
  private:
-  struct Spread {
+  struct Extent {
     std::uint32_t face;
     Vec2 min, max;
   };
 
-  /// Lays a face flat the other way: rounding may tell the sides of one plane apart.
-  void lay_again(FlatFace& face, std::uint8_t dropped) {
+  /// Projects a face along another axis: rounding may give the sides of a plane different axes.
+  void reproject(ProjectedFace& face, std::uint8_t dropped) {
     if (face.dropped == dropped) return;
     const ConvexPolyhedron& polyhedron = convexes_[face.convex]->polyhedron;
-    laid_again_.emplace_back();
-    lay_flat(*convexes_[face.convex], face.face, face.cap, dropped, laid_again_.back());
-    face.points = laid_again_.back().data();
+    reprojected_.emplace_back();
+    project_face(*convexes_[face.convex], face.face, face.cap, dropped, reprojected_.back());
+    face.points = reprojected_.back().data();
     face.dropped = dropped;
     face.scale = 1 / std::abs(polyhedron.faces[face.face].plane.normal[dropped]);
   }
 
-  void match(const FlatFace& a, const FlatFace& b, std::vector<Bond>& bonds) {
+  void match(const ProjectedFace& a, const ProjectedFace& b, std::vector<Bond>& bonds) {
     if (a.id == b.id || (a.known && b.known) || a.convex == b.convex) return;
-    // The even side first: the same bits whichever convex was given first.
-    const FlatFace& even = a.id < b.id ? a : b;
-    const FlatFace& odd = a.id < b.id ? b : a;
+    // The even side is first, so that results do not depend on the order of convexes.
+    const ProjectedFace& even = a.id < b.id ? a : b;
+    const ProjectedFace& odd = a.id < b.id ? b : a;
     const double size = std::min(a.size, b.size);
     const double area = even.scale * flat_overlap(even, odd, size);
     if (area <= kLeastOverlap * size * size) return;
-    const FlatFace& low = a.convex < b.convex ? a : b;
-    const FlatFace& high = a.convex < b.convex ? b : a;
+    const ProjectedFace& low = a.convex < b.convex ? a : b;
+    const ProjectedFace& high = a.convex < b.convex ? b : a;
     bonds.push_back({low.convex, high.convex, low.face, high.face, area});
   }
 
-  double flat_overlap(const FlatFace& even, const FlatFace& odd, double size) {
+  double flat_overlap(const ProjectedFace& even, const ProjectedFace& odd, double size) {
     if (even.cap != FaceEntry::kNoCap || odd.cap != FaceEntry::kNoCap) {
       contours_of(even, contours_even_);
       contours_of(odd, contours_odd_);
       return overlap_area(contours_even_, contours_odd_, kSameMeshCorner * size);
     }
-    return are_twins(even.polygon(), odd.polygon(), size)
+    return are_identical(even.polygon(), odd.polygon(), size)
                ? polygon_area(even.polygon())
                : overlap_area(even.polygon(), odd.polygon(), scratch_);
   }
 
-  void contours_of(const FlatFace& face, std::vector<std::span<const Vec2>>& contours) const {
+  void contours_of(const ProjectedFace& face, std::vector<std::span<const Vec2>>& contours) const {
     contours.clear();
     if (face.cap == FaceEntry::kNoCap) return contours.push_back(face.polygon());
     const PolygonMesh& visual = *convexes_[face.convex]->visual;
@@ -108,8 +108,8 @@ class PlaneSweep {
     }
   }
 
-  /// The common case of two faces that are one polygon seen from either side.
-  static bool are_twins(std::span<const Vec2> a, std::span<const Vec2> b, double size) {
+  /// Returns true in the common case of two faces with identical outlines, seen from either side.
+  static bool are_identical(std::span<const Vec2> a, std::span<const Vec2> b, double size) {
     if (a.size() != b.size()) return false;
     const double near = 1e-26 * size * size;
     const auto same = [&](const Vec2& p, const Vec2& q) { return (p - q).squaredNorm() <= near; };
@@ -124,18 +124,18 @@ class PlaneSweep {
   }
 
   std::span<const ConvexPtr> convexes_;
-  std::vector<FlatFace>& faces_;
-  std::vector<Spread> spread_;
+  std::vector<ProjectedFace>& faces_;
+  std::vector<Extent> extents_;
   std::vector<std::uint32_t> active_;
-  std::vector<std::vector<Vec2>> laid_again_;
+  std::vector<std::vector<Vec2>> reprojected_;
   std::vector<std::span<const Vec2>> contours_even_, contours_odd_;
   OverlapScratch scratch_;
 };
 
 }  // namespace
 
-void lay_flat(const Convex& convex, std::size_t face, std::uint32_t cap, int dropped,
-              std::vector<Vec2>& points) {
+void project_face(const Convex& convex, std::size_t face, std::uint32_t cap, int dropped,
+                  std::vector<Vec2>& points) {
   const bool mirrored = convex.polyhedron.faces[face].plane.normal[dropped] < 0;
   const int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
   const auto add = [&](const std::vector<Vec3>& vertices, std::span<const std::uint32_t> corners) {
@@ -153,7 +153,7 @@ void lay_flat(const Convex& convex, std::size_t face, std::uint32_t cap, int dro
   }
 }
 
-void sweep_planes(std::span<const ConvexPtr> convexes, std::vector<FlatFace>& faces,
+void sweep_planes(std::span<const ConvexPtr> convexes, std::vector<ProjectedFace>& faces,
                   std::vector<Bond>& bonds) {
   struct Key {
     std::uint64_t plane;
@@ -165,7 +165,7 @@ void sweep_planes(std::span<const ConvexPtr> convexes, std::vector<FlatFace>& fa
     keys.push_back({faces[i].id.value >> 1, i});
   }
   const std::size_t buckets = std::bit_ceil(keys.size() + 1);
-  // Bins took the low bits of the hash.
+  // The low bits of the hash select the bin, so they are used up.
   bucket_sort(
       keys, buckets, [&](const Key& key) { return (mix(key.plane) >> 32) & (buckets - 1); },
       [](const Key& a, const Key& b) {

@@ -1,6 +1,6 @@
-// The overlap of any two polygons: between the heights of neighbouring corners, and of places where
-// edges cross, both are rows of trapezoids, whose middle lines say how much they overlap. Mostly
-// the polygons are one, seen from either side: then nothing needs to be swept.
+// Overlap of any two polygons, by strips: between the heights of all corners and crossings, both
+// are rows of trapezoids, whose middle lines give the length of their overlap. Most pairs are one
+// polygon seen from either side, which needs no sweep.
 #include "fracture/adjacency/polygon_overlap.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ class StripSweep {
   }
 
  private:
-  /// Lowest and highest point.
+  /// Adds the edges of a polygon and returns its lowest and highest coordinate.
   std::pair<double, double> add(Contours contours, bool of_b) {
     double low = 1e300, high = -1e300;
     for (const std::span<const Vec2> contour : contours) {
@@ -72,7 +72,7 @@ class StripSweep {
     return {low, high};
   }
 
-  /// The overlap between two heights; in between there are no corners.
+  /// Returns the overlap between two heights without a corner in between.
   double strip(double bottom, double top) {
     crossings_ = {0, 1};
     for (const Edge& p : active_) {
@@ -93,7 +93,7 @@ class StripSweep {
     return sum * (top - bottom);
   }
 
-  /// How much of a line across is in both.
+  /// Returns the length that a horizontal line has in both polygons.
   double common_length(double y) {
     for (auto& places : places_) places.clear();
     for (const Edge& edge : active_) places_[edge.of_b ? 1 : 0].push_back(edge.at(y));
@@ -117,7 +117,7 @@ class StripSweep {
   std::array<std::vector<double>, 2> places_;
 };
 
-bool are_twins(std::span<const Vec2> a, std::span<const Vec2> b, double near) {
+bool are_identical(std::span<const Vec2> a, std::span<const Vec2> b, double near) {
   if (a.size() != b.size()) return false;
   const auto same = [&](const Vec2& p, const Vec2& q) {
     return (p - q).squaredNorm() <= near * near;
@@ -132,9 +132,10 @@ bool are_twins(std::span<const Vec2> a, std::span<const Vec2> b, double near) {
   return true;
 }
 
-bool has_twin(std::span<const Vec2> contour, Contours others, double near) {
-  return std::any_of(others.begin(), others.end(),
-                     [&](std::span<const Vec2> other) { return are_twins(contour, other, near); });
+bool has_identical(std::span<const Vec2> contour, Contours others, double near) {
+  return std::any_of(others.begin(), others.end(), [&](std::span<const Vec2> other) {
+    return are_identical(contour, other, near);
+  });
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ double overlap_area(Contours a, Contours b, double near) {
   const Contours part = a.size() <= b.size() ? a : b, whole = a.size() <= b.size() ? b : a;
   double area = 0;
   for (const std::span<const Vec2> contour : part) {
-    if (!has_twin(contour, whole, near)) return StripSweep(a, b).area();
+    if (!has_identical(contour, whole, near)) return StripSweep(a, b).area();
     area += polygon_area(contour);
   }
   return std::max(0.0, area);

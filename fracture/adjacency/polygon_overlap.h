@@ -1,4 +1,4 @@
-// How much any two polygons in a plane overlap, with holes and all.
+// Overlap of any two polygons in a plane, which may be concave and have holes.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 namespace sunder::fracture {
 
-/// The outer contours of a polygon, counter-clockwise, and its holes, clockwise.
+/// Outer contours of a polygon, counter-clockwise, and its holes, clockwise.
 using Contours = std::span<const std::span<const Vec2>>;
-/// Area that any two polygons have in common; contours of which every corner has one of the other
-/// within `near` are the same. It changes as little as the polygons do, even where edges coincide
-/// but for rounding.
+/// Returns the area of the intersection of two polygons; contours are identical if each corner has
+/// one of the other within `near`. The result is continuous in the polygons, even where edges
+/// coincide up to rounding.
 double overlap_area(Contours a, Contours b, double near);
 
 }  // namespace sunder::fracture

@@ -16,16 +16,16 @@
 namespace sunder::fracture {
 namespace {
 
-/// Corners times corners of two visual meshes whose common volume is still worked out exactly.
+/// Limit of the product of the corners of two visual meshes whose intersection is computed exactly.
 constexpr std::size_t kMostWork = 20'000'000;
-constexpr PlaneId kAnyName{2};
+constexpr PlaneId kAnyId{2};
 
-/// Distances that rounding cannot tell from zero.
+/// Returns the distance below which rounding errors dominate.
 double tolerance_of(const Box& box) {
   return 4e-15 * std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
 }
 
-/// Whether a face of `a` has all of `b` beyond it.
+/// Returns true if all of `b` lies beyond a face of `a`.
 bool is_beyond_a_face(const ConvexPolyhedron& a, const ConvexPolyhedron& b, double tolerance) {
   return std::any_of(a.faces.begin(), a.faces.end(), [&](const ConvexPolyhedron::Face& face) {
     return std::all_of(b.vertices.begin(), b.vertices.end(), [&](const Vec3& vertex) {
@@ -34,13 +34,13 @@ bool is_beyond_a_face(const ConvexPolyhedron& a, const ConvexPolyhedron& b, doub
   });
 }
 
-/// The part of a mesh inside all planes; empty if there is none.
+/// Clips meshes to half-spaces; a mesh becomes empty if nothing is left.
 class MeshClipper {
  public:
   explicit MeshClipper(double tolerance) : tolerance_(tolerance) {}
 
   bool keep_inside(PolygonMesh& mesh, const Plane& plane) {
-    const PlaneSide side = clip(mesh, plane, kAnyName, tolerance_, result_, scratch_);
+    const PlaneSide side = clip(mesh, plane, kAnyId, tolerance_, result_, scratch_);
     if (side == PlaneSide::kCut) std::swap(mesh, result_);
     if (side == PlaneSide::kOutside) mesh = {};
     return !mesh.empty();
@@ -57,7 +57,7 @@ class MeshClipper {
   MeshClipScratch scratch_;
 };
 
-/// The signed volume of the tetrahedron (apex, p, q, r) within `solid`.
+/// Returns the signed volume of the part of `solid` in the tetrahedron (apex, p, q, r).
 double volume_within(const Vec3& apex, const Vec3& p, const Vec3& q, const Vec3& r,
                      const PolygonMesh& solid, MeshClipper& clipper) {
   const double signed6 = (p - apex).dot((q - apex).cross(r - apex));
@@ -73,7 +73,8 @@ double volume_within(const Vec3& apex, const Vec3& p, const Vec3& q, const Vec3&
   return std::copysign(mass_properties(left).volume_m3, signed6);
 }
 
-/// Exact: one solid is a signed sum of tetrahedra, and so is what the other has in common with it.
+/// Returns the volume of the intersection, exactly: `a` is a signed sum of tetrahedra, and so is
+/// its intersection with `b`.
 double common_solid(const PolygonMesh& a, const PolygonMesh& b, MeshClipper& clipper) {
   const Vec3 apex = a.vertices[a.corners[0]];
   double sum = 0;
@@ -100,7 +101,7 @@ std::size_t open_edges_of(const Compound& piece) {
   return open;
 }
 
-/// Returns for each piece whether faces between its convexes cannot be removed.
+/// Returns, per piece, 1 if faces between its convexes cannot be removed.
 std::vector<std::uint8_t> find_walled(std::span<const Compound> pieces) {
   std::vector<std::uint8_t> walled(pieces.size(), 0);
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
@@ -176,7 +177,7 @@ std::optional<DoubledVolume> doubled_volume(const Compound& compound) {
   for_chunks(ghosts.size(), 1, [&](std::size_t g, std::size_t, std::size_t) {
     bool exact = true;
     const std::vector<std::uint32_t>& of = ghosts[g]->of;
-    // (Less than nothing where a part is inside out in places.)
+    // The volume is negative where a part is inside out.
     volume[g] =
         std::max(0.0, common_volume(*compound.convexes[of[0]], *compound.convexes[of[1]], exact));
     exact_of[g] = exact ? 1 : 0;

@@ -1,4 +1,4 @@
-// What is true of pieces, measured from their geometry alone: nothing that made them is asked.
+// Properties of pieces, measured from their geometry, independently of the code that made them.
 #pragma once
 
 #include <cstddef>
@@ -9,39 +9,40 @@
 
 namespace sunder::fracture {
 
-/// Figures of pieces.
+/// Measured properties of pieces.
 struct Audit {
   std::size_t pieces = 0;
   std::size_t convexes = 0;
-  std::size_t islands = 0;  ///< Connected parts of all pieces; as many as pieces if whole.
-  /// Pieces all of whose surfaces are closed, and whose outer surface, without the faces between
-  /// convexes, has every edge in exactly two faces.
+  /// Connected components of all pieces; equal to `pieces` if all are connected.
+  std::size_t islands = 0;
+  /// Pieces with closed surfaces, and an outer surface (that is, without faces between convexes) in
+  /// which every edge has exactly two faces.
   std::size_t watertight_pieces = 0;
-  std::size_t walled_pieces = 0;     ///< Pieces that have no such outer surface.
-  std::size_t open_edges = 0;        ///< Of all surfaces: convexes and their visual meshes.
-  std::size_t negative_volumes = 0;  ///< Convexes without volume, or turned inside out.
+  std::size_t walled_pieces = 0;  ///< Pieces without such an outer surface.
+  /// Open edges of all surfaces: of convexes and of their visual meshes.
+  std::size_t open_edges = 0;
+  std::size_t negative_volumes = 0;  ///< Convexes without volume, or inside out.
   double volume_m3 = 0;
-  double surface_m3 = 0;  ///< That their surfaces enclose: overlaps count with each of the parts.
-  double overlap_m3 = 0;  ///< Of solids of different pieces, pair by pair.
-  /// Whether the overlap is exact. Pairs of very large visual meshes are bounded from above
-  /// instead.
+  double surface_m3 = 0;  ///< Volume that surfaces enclose; overlaps count once per convex.
+  double overlap_m3 = 0;  ///< Overlap of convexes of different pieces, summed over pairs.
+  /// False if the overlap of a pair of very large visual meshes is only an upper bound.
   bool overlap_is_exact = true;
 };
 
-/// Measures them. Parallel.
+/// Measures the pieces. Runs in parallel.
 Audit audit(std::span<const Compound> pieces);
 
 /// Volume that is counted more than once.
 struct DoubledVolume {
   double volume_m3 = 0;
-  bool is_exact = true;  ///< Otherwise it is bounded from above.
+  bool is_exact = true;  ///< False if the volume is only an upper bound.
 };
-/// What convexes with visual meshes have in common with others of their compound, pair by pair: as
-/// much of its volume is counted more than once. None where there are too many pairs to measure.
+/// Returns the volume that convexes with visual meshes share with others of their compound, summed
+/// over pairs; nullopt if there are too many pairs to measure.
 std::optional<DoubledVolume> doubled_volume(const Compound& compound);
 
-/// The volume that two convexes have in common, of their visual meshes where they have any. Sets
-/// `exact` to false where it could only be bounded.
+/// Returns the volume of the intersection of two convexes, or of their visual meshes if they have
+/// any. Sets `exact` to false if the result is only an upper bound.
 double common_volume(const Convex& a, const Convex& b, bool& exact);
 
 }  // namespace sunder::fracture

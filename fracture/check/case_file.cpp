@@ -1,4 +1,4 @@
-// Break cases as text: what is written and what is read stand side by side.
+// Break cases as text. Each write function is followed by its read function.
 #include "fracture/check/case_file.h"
 
 #include <charconv>
@@ -17,14 +17,14 @@ namespace sunder::fracture {
 namespace {
 
 constexpr const char* kFirstLine = "sunder-break-case-4";
-constexpr std::uint64_t kMost = 10000000;  // of anything
+constexpr std::uint64_t kMost = 10000000;  // Limit of all counts.
 
 class Writer {
  public:
   explicit Writer(std::ostream& out) : out_(out) {}
 
   void word(const std::string& text) { out_ << text << ' '; }
-  /// A number, a matrix by its coefficients, or what a stream takes.
+  /// Writes a number, the coefficients of a matrix, or any value that a stream accepts.
   template <class T>
   void put(const T& value) {
     if constexpr (std::is_floating_point_v<T>) {
@@ -38,7 +38,7 @@ class Writer {
   void end_line() { out_ << '\n'; }
 
  private:
-  /// In hexadecimal, as `std::hexfloat` has it; streams write numbers slowly.
+  /// Writes a number like `std::hexfloat`, but faster than a stream.
   void put_number(double value) {
     char text[40];
     char* end = text;
@@ -67,7 +67,8 @@ class Reader {
   double number() {
     const std::string text = word();
     char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);  // streams do not read hexadecimals
+    // Streams do not read hexadecimal numbers.
+    const double value = std::strtod(text.c_str(), &end);
     if (*end != 0 || std::isnan(value)) fail("'" + text + "' is no number");
     return value;
   }
@@ -100,7 +101,7 @@ class Reader {
   std::string name_;
 };
 
-/// The name, kind and plane of a face, of a polyhedron or of a mesh.
+/// Writes the id, kind and plane of a face of a polyhedron or mesh.
 template <class Face>
 void write_plane(Writer& out, const Face& face) {
   out.put(face.id.value);
@@ -206,7 +207,7 @@ PolygonMesh read_mesh(Reader& in, std::uint64_t vertices) {
   return mesh;
 }
 
-/// The visual mesh of a convex, if it has one.
+/// Returns the visual mesh of a convex; null if it has none.
 std::shared_ptr<const PolygonMesh> read_visual(Reader& in) {
   in.expect("visual");
   const std::uint64_t vertices = in.integer(kMost);
@@ -241,7 +242,7 @@ Ghost read_ghost(Reader& in, std::uint64_t convexes) {
   return ghost;
 }
 
-// Largest plug that a file may hold.
+// Limits of a plug in a file.
 constexpr std::uint64_t kMostPlugCorners = 64;
 constexpr double kMostSlices = 1000;
 
@@ -279,15 +280,15 @@ void write_command(Writer& out, const BreakCommand& command) {
   out.put(pattern.jitter);
   out.put(pattern.brick_m);
   out.put(std::quoted(pattern.file));
-  out.word("spared");
-  out.put(command.spared.size());
-  for (const MaterialIndex material : command.spared) out.put(material.value);
+  out.word("unbreakable");
+  out.put(command.unbreakable.size());
+  for (const MaterialIndex material : command.unbreakable) out.put(material.value);
   out.put(command.smallest_m3);
   write_plug(out, command.plug.value_or(Plug{}));
   out.end_line();
 }
 
-/// Reads what write_plug() wrote; files of earlier versions end before it.
+/// Reads a plug; files of earlier versions have none.
 std::optional<Plug> read_plug(Reader& in, std::istream& stream) {
   stream >> std::ws;
   if (stream.eof()) return {};
@@ -322,7 +323,7 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   command.X_RP.position = in.matrix<Vec3>();
   command.X_RP.rotation.coeffs() = in.matrix<Eigen::Vector4d>();
   command.stretch_P = in.matrix<Mat3>();
-  // A radius without end breaks all.
+  // An infinite radius is allowed: it breaks the whole compound.
   if (!(command.radius_m > 0) || !command.X_RP.position.allFinite() ||
       !(std::abs(command.X_RP.rotation.norm() - 1) < 1e-6) || !command.stretch_P.allFinite() ||
       !(command.stretch_P.determinant() > 0)) {
@@ -341,7 +342,7 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
     if (number < least) in.fail("a pattern of no cells");
     return number;
   };
-  pattern.cells = count(1, grid ? 30 : 5000);  // as scenes may ask for
+  pattern.cells = count(1, grid ? 30 : 5000);  // Limits as for scenes.
   pattern.rings = count(1, 100);
   pattern.spokes = count(1, 200);
   pattern.colors = count(0, 5000);
@@ -349,9 +350,9 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   pattern.jitter = in.number();
   pattern.brick_m = in.matrix<Vec3>();
   if (!(stream >> std::quoted(pattern.file))) in.fail("the pattern's file is missing");
-  in.expect("spared");
+  in.expect("unbreakable");
   for (std::uint64_t left = in.integer(kMost); left > 0; --left) {
-    command.spared.emplace_back(in.integer(kMost));
+    command.unbreakable.emplace_back(in.integer(kMost));
   }
   command.smallest_m3 = in.number();
   command.plug = read_plug(in, stream);
@@ -402,7 +403,7 @@ BreakCase read_case(std::istream& stream, const std::string& name) {
   for (std::uint64_t i = 0; i < convexes; ++i) {
     in.expect("convex");
     const MaterialIndex material(in.integer(kMost));
-    compound.anchored.push_back(static_cast<std::uint8_t>(in.integer(kAnchoredAllRound)));
+    compound.anchored.push_back(static_cast<std::uint8_t>(in.integer(kAnchoredAllSides)));
     const std::uint64_t vertices = in.integer(kMost), faces = in.integer(kMost);
     ConvexPolyhedron polyhedron = read_polyhedron(in, vertices, faces);
     compound.convexes.push_back(make_convex(std::move(polyhedron), material, read_visual(in)));

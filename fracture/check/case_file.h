@@ -1,4 +1,4 @@
-// Case files: a break that can be carried out again, bit for bit, wherever it went wrong.
+// Case files: a break stored as text, which can be repeated bit for bit.
 #pragma once
 
 #include <iosfwd>
@@ -8,15 +8,16 @@
 
 namespace sunder::fracture {
 
-/// A compound and what was to be done to it.
+/// A compound and the command to break it.
 struct BreakCase {
   Compound compound;
   BreakCommand command;
 };
 
-/// Writes a case as text; numbers are in hexadecimal, so that none is rounded.
+/// Writes a case as text, with numbers in hexadecimal so that none is rounded.
 void write_case(std::ostream& out, const BreakCase& example);
-/// Reads what write_case() wrote; `name` is for messages. Throws InputError if it is anything else.
+/// Reads a case written by write_case(); `name` is for messages. Throws InputError if the text is
+/// anything else.
 BreakCase read_case(std::istream& in, const std::string& name);
 
 }  // namespace sunder::fracture

@@ -22,7 +22,7 @@ void FailureLog::keep(const Compound& compound, const BreakCommand& command) {
   waiting_.push_back({compound, command});
   if (is_writing_) return;
   is_writing_ = true;
-  if (writer_.joinable()) writer_.join();  // it has ended
+  if (writer_.joinable()) writer_.join();  // The thread has ended.
   writer_ = std::thread([this] { write_all(); });
 }
 
@@ -53,7 +53,7 @@ void FailureLog::write(const BreakCase& example) {
   {
     std::ofstream file(unfinished);
     write_case(file, example);
-    if (!file.flush()) return;  // a full disk must not stop the simulation
+    if (!file.flush()) return;  // A full disk must not stop the simulation.
   }
   if (std::rename(unfinished.c_str(), name.c_str()) != 0) return;
   const std::lock_guard lock(mutex_);

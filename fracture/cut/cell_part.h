@@ -1,4 +1,4 @@
-// What one cell of a pattern gets of one convex.
+// The part of a convex that lies in one cell of a pattern.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace sunder::fracture {
 
-/// What one cell gets of one convex.
+/// The part of a convex that lies in one cell of a pattern.
 struct CellPart {
   static constexpr std::uint32_t kFarCell = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t cell = kFarCell;  ///< Index in AlignedPattern::cells; kFarCell outside the box.
-  ConvexPtr convex;               ///< The very convex given, where nothing was cut off.
+  ConvexPtr convex;               ///< The original object if nothing was cut off.
 };
 
-/// Parts smaller than this share of their convex, or of the cube of the pattern's unit, stay with a
-/// neighbour: the cut that would leave them is not made.
+/// Least volume of a part, relative to its convex and to the cube of the pattern's unit. Smaller
+/// parts stay with a neighbour: the cut that would separate them is not made.
 inline constexpr double kVolumeFloor = 1e-6;
 
 }  // namespace sunder::fracture

@@ -15,7 +15,7 @@ double square_distance_to_segment(const Vec3& point, const Vec3& from, const Vec
   return (point - (from + t * along)).squaredNorm();
 }
 
-/// Squared distance to a face that the point is above.
+/// Returns the squared distance to a face that the point is above.
 double square_distance_to_face(const Vec3& point, const ConvexPolyhedron& convex, std::size_t f) {
   const std::span<const std::uint32_t> corners = convex.face_corners(f);
   const Plane& plane = convex.faces[f].plane;

@@ -1,11 +1,11 @@
-// How far a point is from a convex solid.
+// Distance of a point from a convex polyhedron.
 #pragma once
 
 #include "engine/geometry/convex_polyhedron.h"
 
 namespace sunder::fracture {
 
-/// From a point to a convex solid, in metres; 0 inside.
+/// Returns the distance from a point to a convex polyhedron, in metres; 0 inside.
 double distance(const Vec3& point, const ConvexPolyhedron& convex);
 
 }  // namespace sunder::fracture

@@ -8,16 +8,16 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kVolumeError = 1e-12;  // relative; more than this is a failure
+constexpr double kVolumeError = 1e-12;  // Relative; a larger error is a failure.
 
 double farthest_coordinate(const Convex& convex) {
   return std::max(convex.box.min.cwiseAbs().maxCoeff(), convex.box.max.cwiseAbs().maxCoeff());
 }
 
-/// Distances that rounding cannot tell from zero.
+/// Returns the distance below which rounding errors dominate.
 double tolerance_of(const Convex& convex) { return 4e-15 * farthest_coordinate(convex); }
 
-/// Volume that rounding of vertices may add or take, besides the relative error.
+/// Returns the volume error caused by rounding of vertices, besides the relative error.
 double volume_noise(const Convex& convex) {
   const Vec3 extent = convex.box.extent();
   const double area = extent.x() * extent.y() + extent.y() * extent.z() + extent.z() * extent.x();
@@ -32,8 +32,8 @@ double area_in(const ConvexPolyhedron& shape, PlaneId name) {
   return area;
 }
 
-/// Whether some plane keeps two regions apart.
-bool are_apart(const std::vector<PlaneId>& a, const std::vector<PlaneId>& b) {
+/// Returns true if some plane separates two regions.
+bool are_separated(const std::vector<PlaneId>& a, const std::vector<PlaneId>& b) {
   return std::any_of(a.begin(), a.end(), [&](PlaneId id) {
     return std::find(b.begin(), b.end(), id.opposite()) != b.end();
   });
@@ -48,12 +48,12 @@ Cutter::Cutter(const AlignedPattern& pattern, const ConvexPtr& solid)
       noise_(volume_noise(*solid)) {}
 
 bool Cutter::cut(double floor_m3) {
-  cut_far();
+  cut_outside_box();
   std::vector<std::uint32_t> cells;
   pattern_.overlapping(parent_->box, cells);
   for (const std::uint32_t cell : cells) cut_cell(cell);
-  settle_slivers(floor_m3);
-  if (!adds_up()) cut_in_turn(cells, floor_m3);
+  merge_slivers(floor_m3);
+  if (!adds_up()) cut_successively(cells, floor_m3);
   return adds_up();
 }
 
@@ -62,8 +62,8 @@ void Cutter::add_draft(std::uint32_t cell, std::vector<PlaneId> region, ConvexPt
   drafts_.push_back({cell, std::move(region), std::move(convex), {}, {}, volume, false});
 }
 
-/// What lies outside the pattern's box, one slab a plane of the box.
-void Cutter::cut_far() {
+/// Makes drafts of the space outside the pattern's box, one slab per plane of the box.
+void Cutter::cut_outside_box() {
   std::vector<PlaneId> region;
   for (std::uint32_t i = 0; i < Pattern::kBoxPlanes; ++i) {
     region.push_back(pattern_plane(i, true));
@@ -79,11 +79,11 @@ void Cutter::cut_cell(std::uint32_t index) {
   const ConvexPolyhedron& shape = pattern_.pattern->cells[cell.index].polyhedron;
   region_.clear();
   for (const ConvexPolyhedron::Face& face : shape.faces) region_.push_back(face.id);
-  ConvexPtr convex = contains(cell) ? made(pattern_.polyhedron(cell)) : clip_by(region_);
+  ConvexPtr convex = contains(cell) ? make_part(pattern_.polyhedron(cell)) : clip_by(region_);
   if (convex) add_draft(index, region_, std::move(convex));
 }
 
-/// Whether the cell lies strictly inside the parent.
+/// Returns true if the cell lies strictly inside the parent.
 bool Cutter::contains(const AlignedPattern::Cell& cell) const {
   if ((cell.box.min.array() <= parent_->box.min.array()).any()) return false;
   if ((cell.box.max.array() >= parent_->box.max.array()).any()) return false;
@@ -95,7 +95,7 @@ bool Cutter::contains(const AlignedPattern::Cell& cell) const {
   return true;
 }
 
-/// Finds the planes of a region that cut the parent, deepest first; false if it lies outside one.
+/// Finds the planes of a region that cut the parent, deepest first; returns false if it is outside.
 bool Cutter::find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cuts) const {
   cuts.clear();
   for (const PlaneId id : region) {
@@ -113,11 +113,11 @@ bool Cutter::find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cut
   return true;
 }
 
-ConvexPtr Cutter::made(ConvexPolyhedron polyhedron) const {
+ConvexPtr Cutter::make_part(ConvexPolyhedron polyhedron) const {
   return make_convex(std::move(polyhedron), parent_->material, nullptr, parent_->X_RT);
 }
 
-/// The parent within a region: null if there is nothing, the parent itself if all of it.
+/// Returns the parent within a region: null if nothing is there, the parent itself if it is whole.
 ConvexPtr Cutter::clip_by(const std::vector<PlaneId>& region) {
   if (!find_cuts(region, cuts_)) return nullptr;
   const ConvexPolyhedron* from = &parent_->polyhedron;
@@ -129,7 +129,7 @@ ConvexPtr Cutter::clip_by(const std::vector<PlaneId>& region) {
     std::swap(current_, next_);
     from = &current_;
   }
-  return from == &current_ ? made(current_) : parent_;
+  return from == &current_ ? make_part(current_) : parent_;
 }
 
 std::uint32_t Cutter::largest_cell() const {
@@ -150,32 +150,32 @@ std::vector<NamedPlane> Cutter::cutting_planes(const std::vector<PlaneId>& regio
   return planes;
 }
 
-double Cutter::least_m3(double whole_m3) const {
+double Cutter::min_part_m3(double whole_m3) const {
   const double unit = pattern_.placement.linear.determinant();
   return kVolumeFloor * std::min(whole_m3, unit);
 }
 
 double Cutter::allowed_error_m3(double whole_m3) const { return kVolumeError * whole_m3 + noise_; }
 
-void Cutter::settle_slivers(double floor_m3) {
+void Cutter::merge_slivers(double floor_m3) {
   for (std::size_t i = 0; i < drafts_.size();) {
     if (drafts_[i].volume_m3 >= floor_m3 || drafts_.size() == 1) {
       ++i;
       continue;
     }
-    if (!hand_over(i)) debris_ += std::max(0.0, drafts_[i].volume_m3);
+    if (!merge_sliver(i)) debris_ += std::max(0.0, drafts_[i].volume_m3);
     drafts_.erase(drafts_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 
-/// Gives a sliver to its neighbours by not making the cuts towards it: to the one behind its
-/// largest cut if that takes all of it, otherwise shared among all.
-bool Cutter::hand_over(std::size_t sliver) {
-  const Draft& giver = drafts_[sliver];
-  std::vector<std::pair<double, std::size_t>> neighbours;  // −area of the cut, draft
+/// Merges a sliver into its neighbours by not making the cuts towards it: into the one behind its
+/// largest cut if that takes all of it, otherwise into all of them.
+bool Cutter::merge_sliver(std::size_t sliver) {
+  const Draft& draft = drafts_[sliver];
+  std::vector<std::pair<double, std::size_t>> neighbours;  // Negative area of the cut, and draft.
   std::vector<PlaneId> cuts(drafts_.size());
-  for (const PlaneId id : giver.region) {
-    const double area = area_in(giver.convex->polyhedron, pattern_.name(id));
+  for (const PlaneId id : draft.region) {
+    const double area = area_in(draft.convex->polyhedron, pattern_.name(id));
     if (area <= 0) continue;
     for (std::size_t other = 0; other < drafts_.size(); ++other) {
       const std::vector<PlaneId>& region = drafts_[other].region;
@@ -187,34 +187,36 @@ bool Cutter::hand_over(std::size_t sliver) {
   }
   std::sort(neighbours.begin(), neighbours.end());
   for (const auto& neighbour : neighbours) {
-    if (take_over(std::span(&neighbour, 1), cuts, giver)) return true;
+    if (extend_over(std::span(&neighbour, 1), cuts, draft)) return true;
   }
-  return neighbours.size() > 1 && take_over(neighbours, cuts, giver);
+  return neighbours.size() > 1 && extend_over(neighbours, cuts, draft);
 }
 
-/// Lets drafts grow beyond their cuts towards a sliver, if what they gain is all of it, no more,
-/// and none of it twice.
-bool Cutter::take_over(std::span<const std::pair<double, std::size_t>> takers,
-                       const std::vector<PlaneId>& cuts, const Draft& sliver) {
+/// Extends drafts beyond their cuts towards a sliver; returns false unless they gain exactly the
+/// sliver, and no part of it twice.
+bool Cutter::extend_over(std::span<const std::pair<double, std::size_t>> receivers,
+                         const std::vector<PlaneId>& cuts, const Draft& sliver) {
   std::vector<Draft> grown;
   double missing = sliver.convex->solid.volume_m3;
-  for (const auto& [area, taker] : takers) {
-    Draft draft = drafts_[taker];
-    std::replace(draft.region.begin(), draft.region.end(), cuts[taker], cuts[taker].opposite());
+  for (const auto& [area, receiver] : receivers) {
+    Draft draft = drafts_[receiver];
+    std::replace(draft.region.begin(), draft.region.end(), cuts[receiver],
+                 cuts[receiver].opposite());
     const ConvexPtr gain = clip_by(draft.region);
     if (gain && !lies_within(*gain, sliver.region)) return false;
     for (const Draft& other : grown) {
-      if (!are_apart(draft.region, other.region)) return false;
+      if (!are_separated(draft.region, other.region)) return false;
     }
     missing -= gain ? gain->solid.volume_m3 : 0;
-    std::erase(draft.region, cuts[taker].opposite());
+    std::erase(draft.region, cuts[receiver].opposite());
     draft.convex = clip_by(draft.region);
-    draft.volume_m3 += draft.convex->solid.volume_m3 - drafts_[taker].convex->solid.volume_m3;
+    draft.volume_m3 += draft.convex->solid.volume_m3 - drafts_[receiver].convex->solid.volume_m3;
     draft.has_grown = true;
     grown.push_back(std::move(draft));
   }
   if (std::abs(missing) > 0.1 * allowed_error_m3(parent_->solid.volume_m3)) return false;
-  for (std::size_t i = 0; i < takers.size(); ++i) drafts_[takers[i].second] = std::move(grown[i]);
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+    drafts_[receivers[i].second] = std::move(grown[i]);
   return true;
 }
 
@@ -235,31 +237,32 @@ bool Cutter::adds_up() const {
   return !drafts_.empty() && std::abs(sum - whole) <= allowed_error_m3(whole);
 }
 
-/// For cells that do not quite tile (rounded files): each takes its part of what those before it
-/// left, so that every cut has two sides and nothing is lost. Cuts go right through what is left,
-/// which makes more parts than there are cells.
-void Cutter::cut_in_turn(const std::vector<std::uint32_t>& cells, double floor_m3) {
+/// Cuts by cells that do not tile exactly (rounded files): each cell takes its part of what the
+/// cells before it left, so that every cut has two sides and no volume is lost. Cuts pass through
+/// the whole remnant, which makes more parts than there are cells.
+void Cutter::cut_successively(const std::vector<std::uint32_t>& cells, double floor_m3) {
   drafts_.clear();
   debris_ = 0;
   std::vector<Remnant> left{{parent_->polyhedron, {}}}, beyond;
   const auto take = [&](std::uint32_t cell, Remnant& part) {
-    add_draft(cell, std::move(part.region), made(std::move(part.solid)));
+    add_draft(cell, std::move(part.region), make_part(std::move(part.solid)));
   };
   for (const std::uint32_t index : cells) {
     const ConvexPolyhedron& cell = pattern_.pattern->cells[pattern_.cells[index].index].polyhedron;
     beyond.clear();
     for (Remnant& remnant : left) {
-      if (take_part(remnant, cell, beyond)) take(index, remnant);
+      if (split_remnant(remnant, cell, beyond)) take(index, remnant);
     }
     std::swap(left, beyond);
   }
   for (Remnant& remnant : left) take(CellPart::kFarCell, remnant);
-  settle_slivers(floor_m3);
+  merge_slivers(floor_m3);
 }
 
-/// Cuts a remnant down to what lies in a cell; the rest goes `beyond`. False if nothing does.
-bool Cutter::take_part(Remnant& remnant, const ConvexPolyhedron& cell,
-                       std::vector<Remnant>& beyond) {
+/// Cuts a remnant to its part in a cell, the rest goes to `beyond`; returns false if none is
+/// inside.
+bool Cutter::split_remnant(Remnant& remnant, const ConvexPolyhedron& cell,
+                           std::vector<Remnant>& beyond) {
   const std::size_t before = beyond.size();
   current_ = remnant.solid;
   region_ = remnant.region;

@@ -1,4 +1,4 @@
-// One convex polyhedron cut by a pattern. Internal to intersect.cpp and surface.cpp.
+// Cuts one convex polyhedron by a pattern. Internal to intersect.cpp and surface.cpp.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace sunder::fracture {
 
-/// A part under way: its region of the pattern is the intersection of half-spaces.
+/// A part under construction; its region of the pattern is an intersection of half-spaces.
 struct Draft {
   std::uint32_t cell = CellPart::kFarCell;
-  std::vector<PlaneId> region;  ///< Pattern names.
-  ConvexPtr convex;             ///< The solid within the region.
-  PolygonMesh visual;           ///< Of a surface convex: its mesh within the region.
-  MassProperties visual_solid;  ///< Of the mesh.
-  double volume_m3 = 0;         ///< Of what counts: the convex, or its visual mesh.
-  bool has_grown = false;       ///< Took over a sliver since it was cut.
+  std::vector<PlaneId> region;  ///< Half-spaces, by ids within the pattern.
+  ConvexPtr convex;             ///< The polyhedron within the region.
+  PolygonMesh visual;           ///< Visual mesh within the region; empty for an internal convex.
+  MassProperties visual_solid;  ///< Mass properties of the mesh.
+  double volume_m3 = 0;         ///< Volume of the mesh if there is one, else of the convex.
+  bool has_grown = false;       ///< A sliver was added since the last cut.
 };
 
 /// Cuts an internal convex into drafts that tile it.
@@ -29,21 +29,21 @@ class Cutter {
  public:
   Cutter(const AlignedPattern& pattern, const ConvexPtr& solid);
 
-  /// Makes the drafts and settles those smaller than `floor_m3`; false if they do not add up.
+  /// Makes the drafts and merges slivers below `floor_m3`; returns false if volumes do not add up.
   bool cut(double floor_m3);
   std::vector<Draft>& drafts() { return drafts_; }
-  /// Drafts smaller than `floor_m3` go to their neighbours, the others become debris.
-  void settle_slivers(double floor_m3);
+  /// Merges drafts below `floor_m3` into neighbours; those that fit none become debris.
+  void merge_slivers(double floor_m3);
   double debris_m3() const { return debris_; }
-  /// The cell of the largest draft.
+  /// Returns the cell of the largest draft.
   std::uint32_t largest_cell() const;
-  /// Parts smaller than this are slivers, if `whole_m3` is what the convex holds.
-  double least_m3(double whole_m3) const;
-  /// What volumes may be off by, where parts of `whole_m3` should make up the whole.
+  /// Returns the least volume of a part of a convex of volume `whole_m3`; less is a sliver.
+  double min_part_m3(double whole_m3) const;
+  /// Returns the tolerance for the sum of the volumes of parts of a convex of volume `whole_m3`.
   double allowed_error_m3(double whole_m3) const;
-  /// Distances that rounding cannot tell from zero.
+  /// Returns the distance below which rounding errors dominate.
   double tolerance_m() const { return tolerance_; }
-  /// The planes of a region that cut the solid, deepest first.
+  /// Returns the planes of a region that cut the polyhedron, deepest first.
   std::vector<NamedPlane> cutting_planes(const std::vector<PlaneId>& region);
 
  private:
@@ -54,27 +54,27 @@ class Cutter {
       return depth != other.depth ? depth > other.depth : id < other.id;
     }
   };
-  /// What is left of the solid while cells take their parts in turn.
+  /// The rest of the polyhedron while cells are cut from it one after the other.
   struct Remnant {
     ConvexPolyhedron solid;
     std::vector<PlaneId> region;
   };
 
-  void cut_far();
+  void cut_outside_box();
   void cut_cell(std::uint32_t index);
   bool contains(const AlignedPattern::Cell& cell) const;
   bool find_cuts(const std::vector<PlaneId>& region, std::vector<Cut>& cuts) const;
   ConvexPtr clip_by(const std::vector<PlaneId>& region);
-  /// A convex of the parent's material, painted as that is.
-  ConvexPtr made(ConvexPolyhedron polyhedron) const;
+  /// Returns a convex with the parent's material and texture frame.
+  ConvexPtr make_part(ConvexPolyhedron polyhedron) const;
   void add_draft(std::uint32_t cell, std::vector<PlaneId> region, ConvexPtr convex);
-  bool hand_over(std::size_t sliver);
-  bool take_over(std::span<const std::pair<double, std::size_t>> takers,
-                 const std::vector<PlaneId>& cuts, const Draft& sliver);
+  bool merge_sliver(std::size_t sliver);
+  bool extend_over(std::span<const std::pair<double, std::size_t>> receivers,
+                   const std::vector<PlaneId>& cuts, const Draft& sliver);
   bool lies_within(const Convex& convex, const std::vector<PlaneId>& region) const;
   bool adds_up() const;
-  void cut_in_turn(const std::vector<std::uint32_t>& cells, double floor_m3);
-  bool take_part(Remnant& remnant, const ConvexPolyhedron& cell, std::vector<Remnant>& beyond);
+  void cut_successively(const std::vector<std::uint32_t>& cells, double floor_m3);
+  bool split_remnant(Remnant& remnant, const ConvexPolyhedron& cell, std::vector<Remnant>& beyond);
 
   const AlignedPattern& pattern_;
   const ConvexPtr& parent_;

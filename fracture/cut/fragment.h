@@ -1,4 +1,4 @@
-// What the cuts leave of the convexes, before it is known what holds together.
+// Fragments: the convexes after the cuts, before islands are known.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace sunder::fracture {
 
-/// A convex after the cuts, on its way into a piece.
+/// A convex after the cuts.
 struct Fragment {
-  /// The rest: what is outside the impact sphere or the pattern.
+  /// Group of the fragments outside the impact sphere or the pattern.
   static constexpr std::uint32_t kRest = 0xffffffff;
 
   ConvexPtr convex;
-  ConvexSlot source;       ///< Of the convex that it came from.
-  std::uint32_t cell = 0;  ///< As in CellPart.
+  ConvexSlot source;       ///< Slot of the convex that it was cut from.
+  std::uint32_t cell = 0;  ///< Cell, as in CellPart.
   std::uint32_t group = kRest;
   std::uint8_t anchored = 0;
 };

@@ -14,17 +14,17 @@
 namespace sunder::fracture {
 namespace {
 
-/// The box of what a convex holds, to which its polyhedron may be fitted loosely.
+/// Returns the box of a convex's visual mesh, which its polyhedron may exceed, if it has one.
 Box solid_box(const Convex& convex) {
   return convex.is_internal() ? convex.box : bounds(*convex.visual);
 }
 
-/// The group of a part: its cell's colour where the impact reaches it.
+/// Returns the group of a part: its cell's colour if the sphere touches it, else the rest.
 std::uint32_t group_of(const CellPart& part, const AlignedPattern& pattern,
                        const ImpactSphere& sphere) {
   if (part.cell == CellPart::kFarCell) return Fragment::kRest;
   const Cell& cell = pattern.pattern->cells[pattern.cells[part.cell].index];
-  if (sphere.is_endless()) return cell.color;
+  if (sphere.is_infinite()) return cell.color;
   return !cell.outer && sphere.touches(*part.convex) ? cell.color : Fragment::kRest;
 }
 
@@ -33,12 +33,12 @@ class Welder {
  public:
   Welder(const AlignedPattern& pattern, std::uint32_t slot_count, Fragments& fragments)
       : pattern_(pattern), slot_count_(slot_count), fragments_(fragments) {
-    into_.resize(fragments.all.size());
-    std::iota(into_.begin(), into_.end(), 0u);
-    held_by_.assign(fragments.all.size(), kNobody);
+    welded_into_.resize(fragments.all.size());
+    std::iota(welded_into_.begin(), welded_into_.end(), 0u);
+    uncut_neighbour_.assign(fragments.all.size(), kNone);
     for (std::uint32_t g = 0; g < fragments.ghosts.size(); ++g) {
       const Ghost& ghost = fragments.ghosts[g];
-      note_holders(ghost);
+      record_uncut_overlaps(ghost);
       const auto is_here = [&](std::uint32_t node) {
         return node >= slot_count && cell(node - slot_count) == cell_of(ghost);
       };
@@ -49,7 +49,7 @@ class Welder {
   }
 
   void run() {
-    std::vector<std::uint32_t> order = into_;
+    std::vector<std::uint32_t> order = welded_into_;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return cell(a) < cell(b); });
     for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
@@ -58,20 +58,20 @@ class Welder {
         weld_cell(std::span(order).subspan(i, end - i));
       }
     }
-    if (fragments_.welded > 0) tidy();
+    if (fragments_.welded > 0) remove_welded();
   }
 
  private:
-  static constexpr std::uint32_t kNobody = 0xffffffff, kSeveral = 0xfffffffe;
+  static constexpr std::uint32_t kNone = 0xffffffff, kSeveral = 0xfffffffe;
 
-  static void add_holder(std::uint32_t holder, std::uint32_t& all) {
-    if (holder != kNobody && holder != all) all = all == kNobody ? holder : kSeveral;
+  static void add_neighbour(std::uint32_t neighbour, std::uint32_t& all) {
+    if (neighbour != kNone && neighbour != all) all = all == kNone ? neighbour : kSeveral;
   }
-  void note_holders(const Ghost& ghost) {
+  void record_uncut_overlaps(const Ghost& ghost) {
     for (const std::uint32_t node : ghost.of) {
       if (node < slot_count_) continue;
       for (const std::uint32_t other : ghost.of)
-        if (other < slot_count_) add_holder(other, held_by_[node - slot_count_]);
+        if (other < slot_count_) add_neighbour(other, uncut_neighbour_[node - slot_count_]);
     }
   }
 
@@ -80,11 +80,11 @@ class Welder {
     return ghost.of.back() < slot_count_ ? CellPart::kFarCell : cell(ghost.of.back() - slot_count_);
   }
 
-  /// Unless it would tie together what is not cut: two lengths of a bar, say.
+  /// Welds the fragments of a cell, unless that would connect several uncut convexes.
   void weld_cell(std::span<const std::uint32_t> members) {
-    std::uint32_t held_by = kNobody;
-    for (const std::uint32_t i : members) add_holder(held_by_[i], held_by);
-    if (held_by == kSeveral) return;
+    std::uint32_t uncut_neighbour = kNone;
+    for (const std::uint32_t i : members) add_neighbour(uncut_neighbour_[i], uncut_neighbour);
+    if (uncut_neighbour == kSeveral) return;
     Fragment& first = fragments_.all[members[0]];
     std::vector<ConvexPtr> parts;
     std::uint8_t anchored = 0;
@@ -104,19 +104,19 @@ class Welder {
     const ConvexPtr whole = weld(pattern_, pattern_.cells[first.cell], parts, ghosts);
     if (!whole) return;
     for (auto used = begin; used != at; ++used) fragments_.ghosts[used->second].convex = nullptr;
-    for (const std::uint32_t i : members) into_[i] = members[0];
+    for (const std::uint32_t i : members) welded_into_[i] = members[0];
     first.convex = whole;
     first.anchored = anchored;
     ++fragments_.welded;
   }
 
-  /// Takes out what was welded into others, and numbers what is left anew.
-  void tidy() {
-    std::vector<std::uint32_t> new_of_old(into_.size());
+  /// Removes welded fragments and renumbers the others.
+  void remove_welded() {
+    std::vector<std::uint32_t> new_of_old(welded_into_.size());
     std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < into_.size(); ++i) {
-      new_of_old[i] = into_[i] == i ? kept : new_of_old[into_[i]];
-      if (into_[i] == i) fragments_.all[kept++] = std::move(fragments_.all[i]);
+    for (std::uint32_t i = 0; i < welded_into_.size(); ++i) {
+      new_of_old[i] = welded_into_[i] == i ? kept : new_of_old[welded_into_[i]];
+      if (welded_into_[i] == i) fragments_.all[kept++] = std::move(fragments_.all[i]);
     }
     fragments_.all.resize(kept);
     std::erase_if(fragments_.ghosts, [](const Ghost& ghost) { return !ghost.convex; });
@@ -132,8 +132,10 @@ class Welder {
   const AlignedPattern& pattern_;
   std::uint32_t slot_count_;
   Fragments& fragments_;
-  std::vector<std::uint32_t> into_;     ///< Per fragment: the one it is part of now.
-  std::vector<std::uint32_t> held_by_;  ///< Per fragment: the slot, not cut, that it overlaps.
+  /// Per fragment: the fragment that it was welded into, or itself.
+  std::vector<std::uint32_t> welded_into_;
+  /// Per fragment: the slot of the uncut convex that it overlaps.
+  std::vector<std::uint32_t> uncut_neighbour_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ghosts_of_cells_;  ///< Cell, ghost.
 };
 
@@ -166,7 +168,7 @@ Fragments make_fragments(const Structure& structure, std::vector<ConvexSlot>& to
     const std::uint8_t anchored = structure.anchored(source);
     for (const CellPart& part : cut[i].parts) {
       fragments.all.push_back({part.convex, source, part.cell, group_of(part, pattern, sphere), 0});
-      if (anchored == 0) continue;  // boxes of meshes take time
+      if (anchored == 0) continue;  // Boxes of meshes are expensive.
       fragments.all.back().anchored =
           inherited_anchors(anchored, solid_box(parent), solid_box(*part.convex));
     }
@@ -178,7 +180,7 @@ Fragments make_fragments(const Structure& structure, std::vector<ConvexSlot>& to
                    });
   fragments.ghosts =
       cut_ghosts(structure, touched, pattern, fragments.all, fragments.debris_volume_m3);
-  hold_overlaps(fragments.ghosts, structure.slot_count(), fragments.all);
+  group_overlaps(fragments.ghosts, structure.slot_count(), fragments.all);
   Welder(pattern, structure.slot_count(), fragments).run();
   return fragments;
 }

@@ -12,10 +12,11 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kThin = 1e-9;  // of a convex's size: overlaps of surface convexes below are none
+// Least thickness of overlaps of surface convexes, over their size.
+constexpr double kMinOverlapThickness = 1e-9;
 
-/// How far a point lies outside a convex; negative inside.
-double outside(const Convex& convex, const Vec3& point) {
+/// Returns the distance of a point from a convex's faces; negative inside.
+double signed_distance(const Convex& convex, const Vec3& point) {
   double most = -std::numeric_limits<double>::infinity();
   for (const ConvexPolyhedron::Face& face : convex.polyhedron.faces) {
     most = std::max(most, face.plane.distance(point));
@@ -23,18 +24,18 @@ double outside(const Convex& convex, const Vec3& point) {
   return most;
 }
 
-/// Cuts ghosts and finds their convexes' parts.
+/// Cuts ghosts and assigns the parts to fragments.
 class GhostCutter {
  public:
   GhostCutter(const Structure& structure, const std::vector<ConvexSlot>& touched,
               const AlignedPattern& pattern, const std::vector<Fragment>& fragments)
       : structure_(structure), touched_(touched), pattern_(pattern), fragments_(fragments) {}
 
-  /// The parts of one ghost; any thread may ask.
+  /// Returns the parts of one ghost; may be called from any thread.
   std::vector<Ghost> cut(const Ghost& ghost, double& debris) const {
     std::vector<Ghost> parts;
     if (ghost.sign == 0) {
-      meet(ghost, parts);
+      find_overlaps_of_parts(ghost, parts);
       return parts;
     }
     const Intersection intersection = intersect(pattern_, ghost.convex);
@@ -46,8 +47,8 @@ class GhostCutter {
         const ConvexSlot slot(overlapped);
         of.push_back(part_of(slot, part.cell, center));
         if (of.back() != kNone) continue;
-        // A sliver went to another cell, and takes its overlaps with it: it is counted there.
-        of = {nearest(slot, center)};
+        // A sliver was merged into another cell with its overlaps, and is counted there.
+        of = {deepest_part(slot, center)};
         break;
       }
       std::sort(of.begin(), of.end());
@@ -75,28 +76,28 @@ class GhostCutter {
     return structure_.slot_count() + static_cast<std::uint32_t>(&fragment - fragments_.data());
   }
 
-  /// The part of a convex in a cell, where there is a point in it; kNone if the cell has none.
+  /// Returns the part of a convex in a cell that contains a point; kNone if there is none.
   std::uint32_t part_of(ConvexSlot slot, std::uint32_t cell, const Vec3& point) const {
     if (!is_cut(slot)) return slot.value;
     const std::span<const Fragment> parts = parts_of(slot);
-    if (parts.size() == 1) return node_of(parts[0]);  // it may have been left whole
+    if (parts.size() == 1) return node_of(parts[0]);  // The convex may have been left whole.
     std::uint32_t best = kNone;
     double least = std::numeric_limits<double>::infinity();
     for (const Fragment& part : parts) {
       if (part.cell != cell) continue;
-      const double distance = outside(*part.convex, point);
+      const double distance = signed_distance(*part.convex, point);
       if (distance < least) best = node_of(part);
       least = std::min(least, distance);
     }
     return best;
   }
 
-  /// Of the parts of a convex, the one that a point is deepest in.
-  std::uint32_t nearest(ConvexSlot slot, const Vec3& point) const {
+  /// Returns the part of a convex in which a point lies deepest.
+  std::uint32_t deepest_part(ConvexSlot slot, const Vec3& point) const {
     std::uint32_t best = kNone;
     double least = std::numeric_limits<double>::infinity();
     for (const Fragment& part : parts_of(slot)) {
-      const double distance = outside(*part.convex, point);
+      const double distance = signed_distance(*part.convex, point);
       if (distance < least) best = node_of(part);
       least = std::min(least, distance);
     }
@@ -107,7 +108,7 @@ class GhostCutter {
   struct Node {
     const ConvexPtr& convex;
     std::uint32_t number;
-    const Fragment* fragment;  ///< Null: a convex that was not cut.
+    const Fragment* fragment;  ///< Null if the convex was not cut.
   };
   std::vector<Node> nodes_of(ConvexSlot slot) const {
     std::vector<Node> nodes;
@@ -117,14 +118,14 @@ class GhostCutter {
     return nodes;
   }
 
-  /// Surface convexes are fitted to their visual meshes anew: where their parts still overlap.
-  void meet(const Ghost& ghost, std::vector<Ghost>& parts) const {
+  /// Finds the overlaps of surface convexes again, as their parts were fitted to the visual meshes.
+  void find_overlaps_of_parts(const Ghost& ghost, std::vector<Ghost>& parts) const {
     for (const Node& a : nodes_of(ConvexSlot(ghost.of.front()))) {
       for (const Node& b : nodes_of(ConvexSlot(ghost.of.back()))) {
         if (a.fragment && b.fragment && a.fragment->cell != b.fragment->cell) continue;
         const Vec3 size = a.convex->box.extent().cwiseMin(b.convex->box.extent());
-        ConvexPolyhedron common =
-            overlap(a.convex->polyhedron, b.convex->polyhedron, kThin * size.maxCoeff());
+        ConvexPolyhedron common = overlap(a.convex->polyhedron, b.convex->polyhedron,
+                                          kMinOverlapThickness * size.maxCoeff());
         if (common.empty()) continue;
         parts.push_back({make_convex(std::move(common), a.convex->material),
                          {std::min(a.number, b.number), std::max(a.number, b.number)},
@@ -146,7 +147,7 @@ std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<Conv
                               double& debris_volume_m3) {
   std::vector<std::uint32_t> old;
   for (const ConvexSlot slot : touched) {
-    const std::span<const std::uint32_t> of_slot = structure.ghosts_of(slot);
+    const std::span<const std::uint32_t> of_slot = structure.ghost_indices(slot);
     old.insert(old.end(), of_slot.begin(), of_slot.end());
   }
   std::sort(old.begin(), old.end());
@@ -167,11 +168,11 @@ std::vector<Ghost> cut_ghosts(const Structure& structure, const std::vector<Conv
   return ghosts;
 }
 
-void hold_overlaps(const std::vector<Ghost>& ghosts, std::uint32_t slot_count,
-                   std::vector<Fragment>& fragments) {
+void group_overlaps(const std::vector<Ghost>& ghosts, std::uint32_t slot_count,
+                    std::vector<Fragment>& fragments) {
   if (ghosts.empty()) return;
   DisjointSets sets(fragments.size());
-  std::vector<std::uint32_t> kept;  // by a convex that is not cut
+  std::vector<std::uint32_t> kept;  // Overlapping a convex that is not cut.
   for (const Ghost& ghost : ghosts) {
     const std::uint32_t last = ghost.of.back();
     if (last < slot_count) continue;

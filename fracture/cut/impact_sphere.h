@@ -1,4 +1,4 @@
-// Where a fracture reaches.
+// The volume in which a fracture breaks convexes.
 #pragma once
 
 #include <vector>
@@ -7,23 +7,24 @@
 
 namespace sunder::fracture {
 
-/// What a break may change: convexes outside stay as they are, and so do those of materials that do
-/// not break.
+/// The convexes that a break may change: those in the sphere whose materials break. All others stay
+/// the same objects.
 struct ImpactSphere {
   Vec3 center_R = Vec3::Zero();
-  double radius_m = 1;                     ///< Infinity: everything breaks that may.
-  std::vector<MaterialIndex> spared = {};  ///< Materials that do not break.
-  double smallest_m3 = 0;  ///< Nor does what is smaller and overlaps one that does not.
+  double radius_m = 1;                          ///< Infinity: all that is breakable breaks.
+  std::vector<MaterialIndex> unbreakable = {};  ///< Materials that do not break.
+  /// Smaller convexes that overlap an unbreakable one do not break either.
+  double smallest_m3 = 0;
 
-  /// Whether everything breaks that may.
-  bool is_endless() const;
-  /// Whether convexes of a material stay whole.
-  bool spares(MaterialIndex material) const;
-  /// Whether a convex that may break reaches into it.
+  /// Returns true if the radius is infinite: all that is breakable breaks.
+  bool is_infinite() const;
+  /// Returns true if convexes of a material stay whole.
+  bool is_unbreakable(MaterialIndex material) const;
+  /// Returns true if a convex is breakable and reaches into the sphere.
   bool touches(const Convex& convex) const;
-  /// Whether a convex is a lump that one which does not break holds.
-  bool is_lump(const Structure& structure, ConvexSlot slot) const;
-  /// Slots of a structure whose convexes it touches and breaks, ascending.
+  /// Returns true if a convex is smaller than `smallest_m3` and overlaps an unbreakable one.
+  bool is_small_and_held(const Structure& structure, ConvexSlot slot) const;
+  /// Returns the slots of a structure whose convexes the sphere touches and breaks, ascending.
   std::vector<ConvexSlot> touched(const Structure& structure) const;
 };
 

@@ -11,7 +11,7 @@ namespace {
 Intersection intersect_internal(const AlignedPattern& pattern, const ConvexPtr& convex) {
   Cutter cutter(pattern, convex);
   Intersection result;
-  result.failed = !cutter.cut(cutter.least_m3(convex->solid.volume_m3));
+  result.failed = !cutter.cut(cutter.min_part_m3(convex->solid.volume_m3));
   if (result.failed) {
     result.parts.push_back({cutter.largest_cell(), convex});
     return result;

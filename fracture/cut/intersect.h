@@ -1,4 +1,4 @@
-// Step 2 of a fracture: a convex is clipped by the cells it reaches into (paper 3.1).
+// Step 2 of a fracture: a convex is cut by the cells that it reaches into (paper 3.1).
 #pragma once
 
 #include <vector>
@@ -8,16 +8,17 @@
 
 namespace sunder::fracture {
 
-/// A convex cut by a pattern: several parts a cell where its visual mesh is in several there. The
-/// parts' volumes and the debris sum to the convex's volume.
+/// A convex cut by a pattern; a cell has several parts if the visual mesh in it has several
+/// islands. The volumes of parts and debris sum to the volume of the convex.
 struct Intersection {
   std::vector<CellPart> parts;
-  double debris_volume_m3 = 0;  ///< Parts below the floor that no neighbour could take.
-  bool failed = false;          ///< The volumes did not add up, so the convex was left whole.
+  /// Volume of parts below the least volume that no neighbour could take.
+  double debris_volume_m3 = 0;
+  bool failed = false;  ///< The volumes did not add up, so the convex was left whole.
 };
 
-/// Cuts `convex` by all cells; what it owns of a visual mesh is cut with it, and new convexes are
-/// fitted to that. Depends on nothing but its arguments; any thread may call it.
+/// Cuts `convex` and its visual mesh by all cells, and fits new convexes to the mesh. A pure
+/// function; may be called from any thread.
 Intersection intersect(const AlignedPattern& pattern, const ConvexPtr& convex, const Fit& fit = {});
 
 }  // namespace sunder::fracture

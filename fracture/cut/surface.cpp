@@ -14,10 +14,11 @@
 namespace sunder::fracture {
 namespace {
 
-/// A fit cuts no less than this part of what it encloses: a thinner slice is not worth its faces.
-constexpr double kWorthCutting = 1e-3;
+/// Least depth of a cut for a fit, over the size of the points; thinner slices are not worth a
+/// face.
+constexpr double kMinCutDepth = 1e-3;
 
-/// The convex that a part is which lies wholly inside the mesh: nothing of the old surface shows.
+/// Returns the internal convex for a part that lies inside the mesh: no old surface shows.
 ConvexPtr internal_convex(const Convex& part) {
   ConvexPolyhedron polyhedron = part.polyhedron;
   for (ConvexPolyhedron::Face& face : polyhedron.faces) {
@@ -36,18 +37,18 @@ class SurfaceCutter {
         hull_(make_convex(parent->polyhedron, parent->material, nullptr, parent->X_RT)),
         cutter_(pattern, hull_),
         whole_m3_(parent->solid.volume_m3),
-        floor_m3_(cutter_.least_m3(whole_m3_)) {}
+        floor_m3_(cutter_.min_part_m3(whole_m3_)) {}
 
   Intersection run() {
     if (!cutter_.cut(0)) return whole(true);
     cut_visual([](const Draft&) { return true; });
-    settle_slivers();
+    merge_slivers();
     if (cutter_.drafts().size() < 2) return whole(false);
     return finish();
   }
 
  private:
-  /// What becomes of one draft.
+  /// The convexes that one draft becomes.
   struct Parts {
     std::vector<ConvexPtr> convexes;
     double debris_m3 = 0;
@@ -60,7 +61,7 @@ class SurfaceCutter {
     return result;
   }
 
-  /// Cuts the visual mesh to the regions of the drafts that `is_due`.
+  /// Cuts the visual mesh to the regions of those drafts for which `is_due` is true.
   template <class IsDue>
   void cut_visual(const IsDue& is_due) {
     std::vector<Draft*> due;
@@ -83,10 +84,10 @@ class SurfaceCutter {
     });
   }
 
-  /// What the cells get little of stays with their neighbours, as in Cutter.
-  void settle_slivers() {
+  /// Merges drafts with little volume into their neighbours, as in Cutter.
+  void merge_slivers() {
     std::erase_if(cutter_.drafts(), [](const Draft& draft) { return draft.visual.empty(); });
-    cutter_.settle_slivers(floor_m3_);
+    cutter_.merge_slivers(floor_m3_);
     const auto has_grown = [](const Draft& draft) { return draft.has_grown; };
     if (std::any_of(cutter_.drafts().begin(), cutter_.drafts().end(), has_grown)) {
       cut_visual(has_grown);
@@ -103,7 +104,7 @@ class SurfaceCutter {
     double sum = result.debris_volume_m3;
     for (std::size_t i = 0; i < drafts.size(); ++i) {
       for (ConvexPtr& convex : parts[i].convexes) {
-        // A mesh that passes through itself may have parts that are inside out.
+        // Parts of a mesh that intersects itself may be inside out.
         if (!(convex->solid.volume_m3 > 0)) return whole(true);
         sum += convex->solid.volume_m3;
         result.parts.push_back({drafts[i].cell, std::move(convex)});
@@ -134,7 +135,7 @@ class SurfaceCutter {
     return parts;
   }
 
-  /// An island's convex; make_convex() would weigh the island again.
+  /// Returns the convex of an island; make_convex() would compute the mass properties again.
   ConvexPtr surface_convex(const Draft& draft, PolygonMesh mesh,
                            const MassProperties& solid) const {
     auto convex = std::make_shared<Convex>();
@@ -147,7 +148,7 @@ class SurfaceCutter {
     return convex;
   }
 
-  /// Whether the draft is all solid: its part of the mesh has nothing of the old surface.
+  /// Returns true if the draft is completely solid: its part of the mesh has no old surface.
   bool is_inside(const Draft& draft) const {
     for (const PolygonMesh::Face& face : draft.visual.faces) {
       if (face.kind == FaceKind::kSurface) return false;
@@ -183,7 +184,7 @@ ConvexPolyhedron refitted(const ConvexPolyhedron& region, std::span<const Vec3> 
   for (const Plane& plane : touching_planes(points, fit_directions(points, fit))) {
     double most = 0;
     for (const Vec3& vertex : kept.vertices) most = std::max(most, plane.distance(vertex));
-    if (most <= kWorthCutting * size) continue;
+    if (most <= kMinCutDepth * size) continue;
     if (clip(kept, plane, {}, tolerance, next, scratch) == PlaneSide::kCut) std::swap(kept, next);
   }
   return kept;

@@ -6,7 +6,7 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kSame = 1e-9;  // relative
+constexpr double kRelativeTolerance = 1e-9;  // Relative tolerance of volumes and areas.
 
 double surface_area(const ConvexPolyhedron& polyhedron) {
   double area = 0;
@@ -14,7 +14,7 @@ double surface_area(const ConvexPolyhedron& polyhedron) {
   return area;
 }
 
-/// Area of a convex's faces that lie in faces of `whole`.
+/// Returns the area of a convex's faces that lie in faces of `whole`.
 double area_on(const Convex& convex, const ConvexPolyhedron& whole) {
   double area = 0;
   for (std::size_t f = 0; f < convex.polyhedron.faces.size(); ++f) {
@@ -38,14 +38,14 @@ ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
     volume += part->solid.volume_m3;
   }
   for (const Ghost& ghost : ghosts) volume += ghost.sign * ghost.convex->solid.volume_m3;
-  if (!(std::abs(volume - cell.volume) <= kSame * cell.volume)) return nullptr;
+  if (!(std::abs(volume - cell.volume) <= kRelativeTolerance * cell.volume)) return nullptr;
 
   ConvexPolyhedron whole = pattern.polyhedron(cell);
   double boundary = 0;
   for (const ConvexPtr& part : parts) boundary += area_on(*part, whole);
   for (const Ghost& ghost : ghosts) boundary += ghost.sign * area_on(*ghost.convex, whole);
   const double area = surface_area(whole);
-  if (std::abs(boundary - area) > kSame * area) return nullptr;
+  if (std::abs(boundary - area) > kRelativeTolerance * area) return nullptr;
   return make_convex(std::move(whole), parts[0]->material, nullptr, parts[0]->X_RT);
 }
 

@@ -1,4 +1,4 @@
-// Step 3 of a fracture: a cell that is fully covered becomes one convex (paper 3.1).
+// Step 3 of a fracture: the parts that fill a cell become one convex (paper 3.1).
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace sunder::fracture {
 
-/// The one convex that `parts` of a cell amount to: exactly the cell's polyhedron; `ghosts` are the
-/// overlaps of those parts. Null unless they are internal convexes of one material that fill the
-/// cell, and its whole boundary was made by this pattern (a face of the old solid that lies in it
-/// keeps its look and name, so it is left alone).
+/// Returns the polyhedron of a cell as the one convex that replaces `parts`, whose overlaps are
+/// `ghosts`. Returns null unless the parts are internal convexes of one material that fill the
+/// cell, and the whole boundary of the cell was made by this pattern: a face of the old solid in it
+/// must keep its texture and plane id.
 ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
                std::span<const ConvexPtr> parts, std::span<const Ghost> ghosts);
 

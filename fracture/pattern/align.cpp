@@ -8,7 +8,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// The box around a box of R, seen from P.
+/// Returns the bounding box, in P, of a box in R.
 Box box_in_pattern(const Box& box_R, const AlignedPattern& aligned) {
   const Vec3 center = aligned.P_of_R * (box_R.center() - aligned.placement.origin_R);
   const Vec3 half = aligned.P_of_R.cwiseAbs() * (0.5 * box_R.extent());
@@ -23,7 +23,7 @@ Plane AlignedPattern::plane(PlaneId pattern_id) const {
 }
 
 PlaneId AlignedPattern::name(PlaneId pattern_id) const {
-  const std::uint64_t key = combine(event, plane_index(pattern_id)) | 2;  // never 0
+  const std::uint64_t key = combine(event, plane_index(pattern_id)) | 2;  // Never 0.
   return {(key & ~std::uint64_t{1}) | (plane_flipped(pattern_id) ? 1 : 0)};
 }
 

@@ -1,4 +1,4 @@
-// Step 1 of a fracture: the pattern is moved onto the impact (paper 3.1).
+// Step 1 of a fracture: a pattern is moved to the impact (paper 3.1).
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,21 @@
 
 namespace sunder::fracture {
 
-/// Where a pattern lies in the rest frame R: point_R = linear * point_P + origin_R.
+/// Affine map from the pattern's frame P to rest frame R: point_R = linear * point_P + origin_R.
 struct Placement {
-  Mat3 linear = Mat3::Identity();  ///< Any map of positive determinant.
-  Vec3 origin_R = Vec3::Zero();    ///< The impact.
+  Mat3 linear = Mat3::Identity();  ///< Its determinant is positive.
+  Vec3 origin_R = Vec3::Zero();    ///< Point of impact.
 
   Vec3 operator*(const Vec3& point_P) const { return linear * point_P + origin_R; }
 };
 
-/// A pattern at its place, as far as it reaches into some box.
+/// A pattern in the rest frame, restricted to the cells that may reach into a given box.
 struct AlignedPattern {
   struct Cell {
-    std::uint32_t index = 0;  ///< In pattern->cells.
+    std::uint32_t index = 0;  ///< Index in pattern->cells.
     Box box;
-    double volume = 0;  ///< Of the aligned cell: the pattern's, times the determinant.
+    /// Volume of the aligned cell: that of the pattern's cell times the determinant of the map.
+    double volume = 0;
     std::uint32_t first_vertex = 0;
     std::uint32_t vertex_count = 0;
   };
@@ -31,25 +32,25 @@ struct AlignedPattern {
   std::uint64_t event = 0;
   Placement placement;
   Mat3 P_of_R = Mat3::Identity();  ///< Inverse of placement.linear.
-  std::vector<Plane> planes;       ///< Of the pattern, in R; unit normals.
-  std::vector<Cell> cells;         ///< Those that reach into the box, ascending by index.
-  std::vector<Vec3> vertices;      ///< Of the cells.
+  std::vector<Plane> planes;       ///< Planes of the pattern in R, with unit normals.
+  std::vector<Cell> cells;         ///< Ascending by index.
+  std::vector<Vec3> vertices;      ///< Vertices of `cells`, in R.
 
-  /// The plane of a cell's face, and its name for all time.
+  /// Return the plane of a cell's face in R, and its permanent id, which is unique in a run.
   Plane plane(PlaneId pattern_id) const;
   PlaneId name(PlaneId pattern_id) const;
-  /// The corners of a cell, in R.
+  /// Returns the vertices of a cell, in R.
   std::span<const Vec3> cell_vertices(const Cell& cell) const {
     return std::span(vertices).subspan(cell.first_vertex, cell.vertex_count);
   }
-  /// Indices into `cells` of those whose box overlaps `box_R`, ascending.
+  /// Sets `found` to the indices into `cells` of those whose box overlaps `box_R`, ascending.
   void overlapping(const Box& box_R, std::vector<std::uint32_t>& found) const;
-  /// The cell as a solid in R, named after the event.
+  /// Returns the cell as a polyhedron in R, with permanent plane ids.
   ConvexPolyhedron polyhedron(const Cell& cell) const;
 };
 
-/// Moves `pattern` to its place; only cells that may reach into `interest_R` are kept. The names
-/// of planes follow from `event` and the pattern alone.
+/// Moves `pattern` to the rest frame; keeps only cells that may reach into `interest_R`. The
+/// permanent ids of planes depend only on `event` and the pattern.
 AlignedPattern align(const Pattern& pattern, const Placement& placement, std::uint64_t event,
                      const Box& interest_R);
 

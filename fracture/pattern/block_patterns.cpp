@@ -8,12 +8,12 @@
 namespace sunder::fracture {
 namespace {
 
-/// Makes the planes across each axis once, and cells between them.
+/// Adds cells bounded by axis-aligned planes, and each plane once.
 class Blocks {
  public:
   explicit Blocks(const Box& inner) : inner_(inner) {
     pattern_.planes = box_planes();
-    first_ = surround(pattern_, inner);
+    first_ = add_outer_cells(pattern_, inner);
   }
 
   void add(const Box& block) {
@@ -54,15 +54,15 @@ class Blocks {
   std::map<std::pair<int, double>, std::uint32_t> planes_;
 };
 
-/// `n` and a half blocks to either side of the origin.
-std::vector<double> centred(double size, int n) {
+/// Returns the joints of a course of 2 n + 1 blocks, the middle one centred at the origin.
+std::vector<double> centred_joints(double size, int n) {
   std::vector<double> at;
   for (int i = -n; i <= n + 1; ++i) at.push_back((i - 0.5) * size);
   return at;
 }
 
-/// The same wall's ends, its joints shifted by half a block.
-std::vector<double> shifted(double size, int n) {
+/// Returns the joints of a course with the ends of centred_joints(), moved by half a block.
+std::vector<double> shifted_joints(double size, int n) {
   std::vector<double> at{(-n - 0.5) * size};
   for (int i = -n; i <= n; ++i) at.push_back(i * size);
   at.push_back((n + 0.5) * size);
@@ -85,7 +85,7 @@ Pattern grid_pattern(int count) {
 }
 
 Pattern brick_pattern(const Vec3& size) {
-  // As many either way as cover the unit ball; fewer along all axes if that is too many.
+  // As many each way as cover the unit ball; fewer along all axes if those are too many.
   constexpr double kMostExtent = 0.9 * Pattern::kHalfExtent;
   int n[3];
   for (int most = 1 << 20;; most -= std::max(1, most / 8)) {
@@ -98,8 +98,9 @@ Pattern brick_pattern(const Vec3& size) {
     }
     if (bricks <= kMostBricks || most <= 1) break;
   }
-  const std::vector<double> y = centred(size.y(), n[1]), z = centred(size.z(), n[2]);
-  const std::vector<double> even = centred(size.x(), n[0]), odd = shifted(size.x(), n[0]);
+  const std::vector<double> y = centred_joints(size.y(), n[1]), z = centred_joints(size.z(), n[2]);
+  const std::vector<double> even = centred_joints(size.x(), n[0]),
+                            odd = shifted_joints(size.x(), n[0]);
   Blocks blocks({Vec3(even.front(), y.front(), z.front()), Vec3(even.back(), y.back(), z.back())});
   for (std::size_t j = 0; j + 1 < y.size(); ++j) {
     const bool is_even = j % 2 == static_cast<std::size_t>(n[1]) % 2;

@@ -9,37 +9,37 @@ namespace {
 
 using Kind = PatternSpec::Kind;
 
-/// The size of the part of a solid that a pattern breaks up.
-struct Reached {
-  double volume_m3 = 0;    ///< Of the solid within the impact sphere,
-  double sphere_m3 = 0;    ///< and of the sphere; that of the solid if it breaks as a whole.
-  double thickness_m = 0;  ///< Of a plate, else 0.
+/// The part of a solid that a pattern breaks.
+struct BrokenPart {
+  double volume_m3 = 0;    ///< Volume of the solid within the impact sphere.
+  double sphere_m3 = 0;    ///< Volume of the sphere, or of the solid if all of it breaks.
+  double thickness_m = 0;  ///< Thickness of a plate; 0 for other solids.
 
-  /// Radius of the part of a plate, or of other solids about their middle.
+  /// Radius of the part of a plate, or of a solid as a cylinder of the depth below.
   double radius_m() const { return std::sqrt(volume_m3 / (std::numbers::pi * depth_m())); }
-  /// Along the axis of webs and sectors.
+  /// Depth along the axis of webs and sectors.
   double depth_m() const { return thickness_m > 0 ? thickness_m : std::cbrt(volume_m3); }
 };
 
-/// Area of the cracks between the cells of a pattern, counted once.
-double crack_m2(const PatternSpec& pattern, const Reached& reached) {
+/// Returns the area of the cracks between the cells of a pattern, each counted once.
+double crack_m2(const PatternSpec& pattern, const BrokenPart& broken) {
   const double cells = pattern.cells;
   switch (pattern.kind) {
-    case Kind::kWeb:  // rings of half the radius on average
-      return (pattern.spokes + std::numbers::pi * pattern.rings) * reached.radius_m() *
-             reached.depth_m();
+    case Kind::kWeb:  // Rings have half the radius on average.
+      return (pattern.spokes + std::numbers::pi * pattern.rings) * broken.radius_m() *
+             broken.depth_m();
     case Kind::kRadial:
-      return cells * reached.radius_m() * reached.depth_m();
+      return cells * broken.radius_m() * broken.depth_m();
     case Kind::kSlabs:
-      return cells * std::cbrt(reached.volume_m3 * reached.volume_m3);
+      return cells * std::cbrt(broken.volume_m3 * broken.volume_m3);
     case Kind::kGrid:
-      return 3 * cells * reached.volume_m3 / std::cbrt(reached.sphere_m3);
-    default:  // half of the mean surface of a Poisson-Voronoi cell, 5.82 of its volume^(2/3)
-      return 2.91 * std::cbrt(cells / reached.sphere_m3) * reached.volume_m3;
+      return 3 * cells * broken.volume_m3 / std::cbrt(broken.sphere_m3);
+    default:  // Half the mean surface of a Poisson-Voronoi cell, which is 5.82 of its volume^(2/3).
+      return 2.91 * std::cbrt(cells / broken.sphere_m3) * broken.volume_m3;
   }
 }
 
-/// Returns false if there are as few as can be.
+/// Halves the number of cells; returns false if it is the least possible already.
 bool halve(PatternSpec& pattern) {
   const PatternSpec before = pattern;
   const int least = pattern.kind == Kind::kRadial ? 3 : 2;
@@ -54,19 +54,19 @@ bool halve(PatternSpec& pattern) {
 
 }  // namespace
 
-void reduce_to_energy(const Material& material, const Hit& hit, double radius_m, double thickness_m,
-                      PatternSpec& pattern) {
+void reduce_to_energy(const Material& material, const StructureImpact& hit, double radius_m,
+                      double thickness_m, PatternSpec& pattern) {
   if (pattern.kind == Kind::kNone || pattern.kind == Kind::kBrick || pattern.kind == Kind::kFile)
     return;
   if (!(material.toughness_J_m2 > 0) || !(hit.reached_m3 > 0)) return;
   if (!(material.impact_limit_Pa(true) > 0)) return;
-  Reached reached{hit.reached_m3, hit.reached_m3, thickness_m};
+  BrokenPart broken{hit.reached_m3, hit.reached_m3, thickness_m};
   if (std::isfinite(radius_m)) {
-    reached.sphere_m3 = 4.0 / 3 * std::numbers::pi * radius_m * radius_m * radius_m;
-    reached.volume_m3 = std::min(hit.reached_m3, reached.sphere_m3);
+    broken.sphere_m3 = 4.0 / 3 * std::numbers::pi * radius_m * radius_m * radius_m;
+    broken.volume_m3 = std::min(hit.reached_m3, broken.sphere_m3);
   }
   const double affordable_m2 = kCrackShare * hit.energy_J / material.toughness_J_m2;
-  while (crack_m2(pattern, reached) > affordable_m2 && halve(pattern)) {
+  while (crack_m2(pattern, broken) > affordable_m2 && halve(pattern)) {
   }
 }
 

@@ -1,7 +1,7 @@
 // Patterns from files: an .obj of convex cells that fill a box around the impact.
 //
-// Cells are made anew from the planes of their faces, so that those that meet share one plane
-// exactly, however the file was rounded.
+// Cells are rebuilt from the planes of their faces, so that adjacent cells share one plane exactly,
+// whatever the rounding in the file.
 #include <cmath>
 #include <istream>
 #include <map>
@@ -14,7 +14,7 @@ namespace sunder::fracture {
 namespace {
 
 constexpr std::size_t kMostCells = 1000, kMostVertices = 100000, kMostFaces = 20000;
-constexpr double kSamePlane = 1e-6;  // of the box's size
+constexpr double kSamePlane = 1e-6;  // Relative to the size of the box.
 constexpr double kSameVolume = 1e-5;
 
 struct Group {
@@ -94,7 +94,7 @@ class ObjReader {
   ObjCells cells_;
 };
 
-/// Makes a pattern of cells.
+/// Builds a pattern from the cells of a file.
 class Rebuilder {
  public:
   Rebuilder(const ObjCells& cells, std::string name) : cells_(cells), name_(std::move(name)) {
@@ -117,7 +117,7 @@ class Rebuilder {
       fail("has more than " + std::to_string(kMostCells) + " cells");
     }
     pattern_.planes = box_planes();
-    first_ = surround(pattern_, box_);
+    first_ = add_outer_cells(pattern_, box_);
     double volume = 0;
     for (const Group& group : cells_.groups) volume += add(group);
     if (std::abs(volume / box_.extent().prod() - 1) > kSameVolume) {
@@ -158,7 +158,7 @@ class Rebuilder {
 
   std::string label() const { return "cell " + std::to_string(pattern_.cells.size() - 5); }
 
-  /// Newell's normal, away from the middle of the cell.
+  /// Returns the plane of a face by Newell's normal, pointing away from the middle of the cell.
   Plane plane_of(const std::vector<std::size_t>& face, const Vec3& middle) const {
     Vec3 normal = Vec3::Zero(), center = Vec3::Zero();
     for (std::size_t i = 0; i < face.size(); ++i) {
@@ -172,7 +172,7 @@ class Rebuilder {
     return plane.distance(middle) > 0 ? plane.flipped() : plane;
   }
 
-  /// The plane, shared with an earlier face if there is one in it.
+  /// Returns the id of the plane, or of the plane of an earlier face if the face lies in that.
   PlaneId shared(const Plane& plane, const std::vector<std::size_t>& face) {
     for (std::uint32_t i = first_; i < pattern_.planes.size(); ++i) {
       const Plane& known = pattern_.planes[i];
@@ -186,7 +186,7 @@ class Rebuilder {
     return pattern_plane(static_cast<std::uint32_t>(pattern_.planes.size() - 1), false);
   }
 
-  /// Groups of one material share a colour; others keep their own.
+  /// Gives the groups of one material one colour; other groups keep their own.
   void color() {
     std::map<std::string, std::uint32_t> colors;
     const std::size_t outer = pattern_.cells.size() - cells_.groups.size();

@@ -8,7 +8,7 @@
 
 namespace sunder::fracture {
 
-Plane upright_plane(const Vec2& a, const Vec2& b) {
+Plane plane_parallel_to_y(const Vec2& a, const Vec2& b) {
   const Vec2 along = (b - a).normalized();
   return Plane::through(Vec3(a.x(), 0, a.y()), Vec3(along.y(), 0, -along.x()));
 }
@@ -59,7 +59,7 @@ ConvexPolyhedron cut_cell(const std::vector<Plane>& planes, std::span<const Plan
   return cell;
 }
 
-std::uint32_t surround(Pattern& pattern, const Box& inner) {
+std::uint32_t add_outer_cells(Pattern& pattern, const Box& inner) {
   const auto first = static_cast<std::uint32_t>(pattern.planes.size());
   for (int axis = 0; axis < 3; ++axis) {
     pattern.planes.push_back({Vec3::Unit(axis), -inner.max[axis]});

@@ -1,4 +1,4 @@
-// Patterns made once and kept.
+// A cache of patterns.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace sunder::fracture {
 
-/// Hands out patterns; any thread may ask.
+/// Makes patterns and keeps them; may be called from any thread.
 class PatternLibrary {
  public:
-  /// Variants of a pattern that are kept; the seed chooses among them.
+  /// Number of variants per pattern; the seed selects one.
   static constexpr std::uint64_t kVariants = 8;
 
-  /// As make_pattern() makes it; the seed counts modulo kVariants.
+  /// Returns make_pattern() for the seed modulo kVariants.
   std::shared_ptr<const Pattern> find(const PatternSpec& spec, const PatternScale& scale,
                                       std::uint64_t seed);
 

@@ -1,5 +1,5 @@
-// The plug that a striker drives out of a solid: a prism of its cross-section, whose sides are
-// parallel to the impact, so that it slides out without wedging, and sectors of rings around it.
+// The plug that a striker drives out of a solid: a prism of its cross-section and sectors of rings
+// around it. The sides of the prism are parallel to the impact, so that it does not jam.
 #include <cmath>
 
 #include "engine/base/random.h"
@@ -8,11 +8,11 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kCore = 0.55;        // scale of the core of a split prism
-constexpr double kRingJitter = 0.45;  // of the distance between two rings; less than a half
-constexpr double kSliceJitter = 0.2;  // of the distance between two slices
+constexpr double kCoreScale = 0.55;   // Scale of the core of a split prism.
+constexpr double kRingJitter = 0.45;  // Relative to the distance of two rings; less than 0.5.
+constexpr double kSliceJitter = 0.2;  // Relative to the distance of two slices.
 
-/// Corners of all rings, from the inside out.
+/// Returns the corners of all rings, from the inside out.
 std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Random& random) {
   std::vector<Vec2> section;
   for (const Vec2& corner : plug.section_m) section.push_back(corner / unit_m);
@@ -23,7 +23,7 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
       ring.push_back((scale + jitter * random.uniform(-1, 1)) * corner);
     rings.push_back(std::move(ring));
   };
-  if (plug.split) add(kCore, 0);
+  if (plug.split) add(kCoreScale, 0);
   add(1, 0);
   const double widest = std::max(1.0, plug.reach_m / plug.section_reach_m());
   double inner = 1;
@@ -35,7 +35,7 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
   return rings;
 }
 
-/// Planes across the axis, from the struck face inwards.
+/// Returns the distances of the planes across the axis from the struck face, in units of P.
 std::vector<double> place_slices(const Plug& plug, double unit_m, Random& random) {
   std::vector<double> slices;
   if (!(plug.slice_m > 0)) return slices;
@@ -57,10 +57,11 @@ Pattern plug_pattern(const Plug& plug, double unit_m, std::uint64_t seed) {
   Pattern pattern;
   pattern.planes = box_planes();
   const std::uint32_t first_spoke = Pattern::kBoxPlanes, first_chord = first_spoke + spokes;
-  for (const Vec2& corner : rings[0]) pattern.planes.push_back(upright_plane(Vec2::Zero(), corner));
+  for (const Vec2& corner : rings[0])
+    pattern.planes.push_back(plane_parallel_to_y(Vec2::Zero(), corner));
   for (const std::vector<Vec2>& ring : rings)
     for (std::uint32_t s = 0; s < spokes; ++s)
-      pattern.planes.push_back(upright_plane(ring[s], ring[(s + 1) % spokes]));
+      pattern.planes.push_back(plane_parallel_to_y(ring[s], ring[(s + 1) % spokes]));
   const auto chord = [&](std::uint32_t r, std::uint32_t s) { return first_chord + r * spokes + s; };
   const auto first_slice = static_cast<std::uint32_t>(pattern.planes.size());
   std::vector<double> slices = place_slices(plug, unit_m, random);

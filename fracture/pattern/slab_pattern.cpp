@@ -1,4 +1,4 @@
-// Wood: splinters along the grain, by splitting and splitting again.
+// Wood: splinters along the grain, made by splitting a box recursively.
 #include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "fracture/pattern/pattern.h"
@@ -6,8 +6,8 @@
 namespace sunder::fracture {
 namespace {
 
-/// Splits the region within `sides` into `count` cells. Every split is through the region's own
-/// middle, so cells are convex and tile whatever the tilt.
+/// Splits the region within `sides` into `count` cells. Each split plane passes through the region
+/// itself, so that cells are convex and tile the region for any tilt.
 void split(Pattern& pattern, std::vector<PlaneId>& sides, int count, double jitter,
            Random& random) {
   ConvexPolyhedron region = cut_cell(pattern.planes, sides);
@@ -18,7 +18,7 @@ void split(Pattern& pattern, std::vector<PlaneId>& sides, int count, double jitt
   }
   const Box box = bounds(region);
   const Vec3 extent = box.extent();
-  const bool across_y = extent.y() * 1.5 >= extent.z();  // slabs rather than rods
+  const bool across_y = extent.y() * 1.5 >= extent.z();  // Prefers slabs to rods.
   const Vec3 straight = across_y ? Vec3::UnitY() : Vec3::UnitZ();
   const Vec3 tilt(0.1 * random.uniform(-1, 1), 0.5 * random.uniform(-1, 1),
                   0.5 * random.uniform(-1, 1));
@@ -41,7 +41,7 @@ Pattern slab_pattern(int count, double jitter, std::uint64_t seed) {
   Random random(seed, 5);
   Pattern pattern;
   pattern.planes = box_planes();
-  const std::uint32_t first = surround(pattern, {Vec3::Constant(-1), Vec3::Constant(1)});
+  const std::uint32_t first = add_outer_cells(pattern, {Vec3::Constant(-1), Vec3::Constant(1)});
   std::vector<PlaneId> sides;
   for (std::uint32_t i = 0; i < 6; ++i) sides.push_back(pattern_plane(first + i, false));
   split(pattern, sides, count, jitter, random);

@@ -13,15 +13,16 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr std::uint64_t kFirstLocalName = std::uint64_t{1} << 40;
+constexpr std::uint64_t kFirstSiteId = std::uint64_t{1} << 40;
 
-/// Finds the sites around one site in order of distance, a wider ring at a time.
+/// Lists the sites around one site by distance, in shells of increasing radius.
 class Neighbours {
  public:
   Neighbours(std::span<const Vec3> sites, const Bvh& tree, std::uint32_t site, double radius)
       : sites_(sites), tree_(tree), site_(site), radius_(radius) {}
 
-  /// The next ring, nearest first, ties by index; false when there is none nearer than `limit`.
+  /// Sets `ring` to the next shell, nearest first, ties by index; returns false if all sites nearer
+  /// than `limit` have been listed.
   bool next(double limit, std::vector<std::pair<double, std::uint32_t>>& ring) {
     if (hits_.size() == sites_.size() || last_ >= limit) return false;
     ring.clear();
@@ -58,7 +59,7 @@ Plane bisector(const Vec3& low, const Vec3& high) {
   return Plane::through(0.5 * (low + high), (high - low).normalized());
 }
 
-/// One cell; until planes have their indices, a face made by site j is named kFirstLocalName + j.
+/// Returns one cell. A face made by site j has the id kFirstSiteId + j until planes have indices.
 ConvexPolyhedron clip_cell(std::span<const Vec3> sites, std::uint32_t site, const Bvh& tree,
                            double ring_m, const ConvexPolyhedron& solid, double tolerance,
                            ClipScratch& scratch) {
@@ -69,12 +70,12 @@ ConvexPolyhedron clip_cell(std::span<const Vec3> sites, std::uint32_t site, cons
   while (neighbours.next(2 * reach_m, ring)) {
     for (const auto& [distance, other] : ring) {
       if (distance >= 2 * reach_m) return cell;
-      if (distance == 0 && other < site) return {};  // the same site again
+      if (distance == 0 && other < site) return {};  // A duplicate site has no cell.
       if (distance == 0) continue;
       const bool is_low = site < other;
       const Plane plane = is_low ? bisector(sites[site], sites[other])
                                  : bisector(sites[other], sites[site]).flipped();
-      const PlaneSide side = clip(cell, plane, {kFirstLocalName + other}, tolerance, cut, scratch);
+      const PlaneSide side = clip(cell, plane, {kFirstSiteId + other}, tolerance, cut, scratch);
       if (side == PlaneSide::kOutside) return {};
       if (side == PlaneSide::kInside) continue;
       std::swap(cell, cut);
@@ -107,9 +108,9 @@ std::vector<ConvexPolyhedron> voronoi_cells(std::span<const Vec3> sites,
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> names;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (ConvexPolyhedron::Face& face : cells[i].faces) {
-      if (face.id.value < kFirstLocalName) continue;
+      if (face.id.value < kFirstSiteId) continue;
       const auto site = static_cast<std::uint32_t>(i);
-      const auto other = static_cast<std::uint32_t>(face.id.value - kFirstLocalName);
+      const auto other = static_cast<std::uint32_t>(face.id.value - kFirstSiteId);
       const auto pair = std::minmax(site, other);
       const auto [it, is_new] = names.emplace(pair, static_cast<std::uint32_t>(planes.size()));
       if (is_new) planes.push_back(bisector(sites[pair.first], sites[pair.second]));

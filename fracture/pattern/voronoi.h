@@ -1,5 +1,5 @@
-// Voronoi cells by clipping: each cell is a solid cut by the bisectors of its site with the
-// others, nearest first, until no farther site can matter.
+// Voronoi cells by clipping: each cell is a solid cut by the bisectors of its site with other
+// sites, nearest first, until no farther site can reach it.
 #pragma once
 
 #include <span>
@@ -9,9 +9,9 @@
 
 namespace sunder::fracture {
 
-/// The cells of `sites` within `solid`, in the order of the sites; empty where a site's cell lies
-/// outside of it. New planes are appended to `planes`, one a pair of cells that meet; faces name
-/// them as pattern_plane() does.
+/// Returns the cells of `sites` within `solid`, in the order of the sites; a cell outside `solid`
+/// is empty. Appends new planes to `planes`, one per pair of adjacent cells; face ids are those of
+/// pattern_plane().
 std::vector<ConvexPolyhedron> voronoi_cells(std::span<const Vec3> sites,
                                             const ConvexPolyhedron& solid,
                                             std::vector<Plane>& planes);

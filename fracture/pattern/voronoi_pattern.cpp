@@ -1,4 +1,4 @@
-// Voronoi patterns: a ball of sites packed towards the impact, within a shell of outer ones.
+// Voronoi patterns: a ball of sites, denser towards the impact, in a shell of outer sites.
 #include <cmath>
 #include <numbers>
 
@@ -14,8 +14,8 @@ constexpr int kShellSites = 32;
 constexpr double kShellRadius = 1.5;
 constexpr double kShellJitter = 0.15;
 
-// u^exponent for u in [0, 1) from square roots alone (the C library's pow differs between
-// processors): the exponent in binary, 20 digits.
+// Returns u^exponent for u in [0, 1) from square roots alone, as pow() of the C library differs
+// between processors; uses 20 binary digits of the exponent's fraction.
 double power(double u, double exponent) {
   double result = 1;
   for (; exponent >= 1; --exponent) result *= u;
@@ -31,7 +31,7 @@ double power(double u, double exponent) {
   return result;
 }
 
-/// Evenly spread directions (Fibonacci spiral), with jitter.
+/// Returns evenly distributed directions (Fibonacci spiral) times kShellRadius, with jitter.
 std::vector<Vec3> shell_sites(Random& random) {
   std::vector<Vec3> sites;
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));

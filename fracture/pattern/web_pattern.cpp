@@ -9,7 +9,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Where the web's threads cross: crossings[ring][spoke], rings from the inside out, in (x, z).
+/// Returns the crossings of spokes and rings, as (x, z): [ring][spoke], rings from the inside out.
 std::vector<std::vector<Vec2>> place_crossings(int rings, int spokes, double jitter,
                                                std::uint64_t seed) {
   Random random(seed, 2);
@@ -24,7 +24,7 @@ std::vector<std::vector<Vec2>> place_crossings(int rings, int spokes, double jit
   for (int ring = 0; ring < rings; ++ring) {
     for (int spoke = 0; spoke < spokes; ++spoke) {
       const double place = ring + 1 + 0.8 * jitter * random.uniform(-0.5, 0.5);
-      const double part = place / rings;  // rings widen outwards: part^1.5
+      const double part = place / rings;  // Rings widen outwards as part^1.5.
       const double radius = std::min(1.1, part * std::sqrt(part));
       crossings[static_cast<std::size_t>(ring)].push_back(
           radius * directions[static_cast<std::size_t>(spoke)]);
@@ -43,11 +43,12 @@ Pattern web_pattern(int rings, int spokes, double jitter, std::uint64_t seed) {
   pattern.planes = box_planes();
   const std::uint32_t first_spoke = Pattern::kBoxPlanes, first_chord = first_spoke + spoke_count;
   for (std::uint32_t s = 0; s < spoke_count; ++s) {
-    pattern.planes.push_back(upright_plane(Vec2::Zero(), crossings[0][s]));
+    pattern.planes.push_back(plane_parallel_to_y(Vec2::Zero(), crossings[0][s]));
   }
   for (std::uint32_t r = 0; r < ring_count; ++r) {
     for (std::uint32_t s = 0; s < spoke_count; ++s) {
-      pattern.planes.push_back(upright_plane(crossings[r][s], crossings[r][(s + 1) % spoke_count]));
+      pattern.planes.push_back(
+          plane_parallel_to_y(crossings[r][s], crossings[r][(s + 1) % spoke_count]));
     }
   }
   const auto chord = [&](std::uint32_t r, std::uint32_t s) {

@@ -9,7 +9,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Which of some nodes are beside which, a bit for each two.
+/// Adjacency matrix of a graph, one bit per pair of nodes.
 class Graph {
  public:
   explicit Graph(std::size_t nodes) : words_((nodes + 63) / 64), bits_(nodes * words_) {}
@@ -23,7 +23,7 @@ class Graph {
     for (std::size_t w = 0; w < words_; ++w) sum += std::popcount(row(node)[w]);
     return static_cast<std::uint32_t>(sum);
   }
-  /// Calls `visit` for what is beside a node, ascending.
+  /// Calls `visit` for each neighbour of a node, ascending.
   template <class Visit>
   void for_each_beside(std::uint32_t node, const Visit& visit) const {
     for (std::size_t w = 0; w < words_; ++w) {
@@ -32,7 +32,7 @@ class Graph {
               static_cast<std::uint32_t>(std::countr_zero(rest)));
     }
   }
-  /// Makes neighbours of a node's neighbours, which lose it.
+  /// Eliminates a node: joins its neighbours with each other and removes it from their rows.
   void eliminate(std::uint32_t node) {
     for_each_beside(node, [&](std::uint32_t other) {
       for (std::size_t w = 0; w < words_; ++w) row(other)[w] |= row(node)[w];
@@ -50,7 +50,7 @@ class Graph {
   std::vector<std::uint64_t> bits_;
 };
 
-/// y -= factor · x
+/// Computes y -= factor · x.
 void subtract(const Six<double>& x, double factor, Six<double>& y) {
   y.linear -= splat<double>(factor) * x.linear;
   y.angular -= splat<double>(factor) * x.angular;
@@ -58,26 +58,26 @@ void subtract(const Six<double>& x, double factor, Six<double>& y) {
 
 using Columns = std::array<Six<double>, 6>;
 
-/// Entry `row` of a column.
+/// Returns the entry `row` of a column.
 double entry(const Six<double>& column, std::size_t row) {
   return row < 3 ? column.linear[row] : column.angular[row - 3];
 }
 
-/// c -= a bᵀ
+/// Computes c -= a bᵀ.
 void subtract_product(const Columns& a, const Columns& b, Columns& c) {
   for (std::size_t j = 0; j < 6; ++j) {
     for (std::size_t k = 0; k < 6; ++k) subtract(a[k], entry(b[k], j), c[j]);
   }
 }
 
-/// a x
+/// Returns a x.
 Six<double> times(const Columns& a, const Six<double>& x) {
   Six<double> product{};
   for (std::size_t k = 0; k < 6; ++k) subtract(a[k], -entry(x, k), product);
   return product;
 }
 
-/// aᵀ x
+/// Returns aᵀ x.
 Six<double> transposed_times(const Columns& a, const Six<double>& x) {
   return {Simd4<double>{dot(a[0], x), dot(a[1], x), dot(a[2], x), 0},
           Simd4<double>{dot(a[3], x), dot(a[4], x), dot(a[5], x), 0}};
@@ -86,7 +86,7 @@ Six<double> transposed_times(const Columns& a, const Six<double>& x) {
 }  // namespace
 
 BlockCholesky::BlockCholesky(std::size_t nodes, std::span<const Pair> pairs) : place_(nodes) {
-  // Those on their own go first; the others have numbers of their own, in the same order.
+  // Isolated nodes come first; the others are renumbered in their order.
   std::vector<std::uint32_t> number(nodes, 0), node_of;
   for (const auto& [a, b] : pairs) number[a] = number[b] = 1;
   for (std::uint32_t node = 0; node < nodes; ++node) {
@@ -100,7 +100,7 @@ BlockCholesky::BlockCholesky(std::size_t nodes, std::span<const Pair> pairs) : p
   const std::size_t alone = order_.size();
   Graph graph(node_of.size());
   for (const auto& [a, b] : pairs) graph.join(number[a], number[b]);
-  // By degree, and then by number: one comparison each, of neighbours in memory.
+  // Ranks are degree, then number, in one integer: one comparison each, contiguous in memory.
   constexpr std::int64_t kGone = std::numeric_limits<std::int64_t>::max();
   const auto rank_of = [&](std::uint32_t n) { return (std::int64_t{graph.degree(n)} << 32) | n; };
   std::vector<std::int64_t> ranks;
@@ -167,7 +167,8 @@ bool BlockCholesky::factorize() {
       for (std::size_t j = 0; j < 6; ++j) blocks_[a][j] = {-product[j].linear, -product[j].angular};
     }
     for (std::uint32_t b = begin + 1; b < end; ++b) {
-      std::uint32_t at = columns_[rows_[b]];  // what is below k's row is in that row's column
+      // The rows of column k below rows_[b] are also rows of that column.
+      std::uint32_t at = columns_[rows_[b]];
       for (std::uint32_t a = b; a < end; ++a) {
         while (rows_[at] != rows_[a]) ++at;
         subtract_product(blocks_[a], blocks_[b], blocks_[at]);

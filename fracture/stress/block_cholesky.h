@@ -1,5 +1,5 @@
-// The direct solver of nodes on springs: the Cholesky factor of a matrix of 6×6 blocks, most of
-// which are zero, and stay so if nodes go in order of least degree (Rose 1972).
+// Direct solver for a spring system: Cholesky factorization of a sparse symmetric matrix of 6×6
+// blocks, with nodes eliminated in order of least degree (Rose 1972).
 #pragma once
 
 #include <array>
@@ -14,37 +14,40 @@
 
 namespace sunder::fracture {
 
-/// K = L Lᵀ of a symmetric positive definite K; zero until added to.
+/// Factorization K = L Lᵀ of a symmetric positive definite K, zero until add() is called.
 class BlockCholesky {
  public:
   using Block = Eigen::Matrix<double, 6, 6>;
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
   BlockCholesky() = default;
-  /// `pairs`: of different nodes whose block is not zero, in any order, as often as they like.
+  /// `pairs`: pairs of different nodes with a nonzero block, in any order; may have duplicates.
   BlockCholesky(std::size_t nodes, std::span<const Pair> pairs);
 
   std::size_t nodes() const { return order_.size(); }
-  /// K_ij, of a node with itself or one of the pairs; K_ji follows.
+  /// Adds to the block K_ij of one node or of one of the pairs, and its transpose to K_ji.
   void add(std::uint32_t i, std::uint32_t j, const Block& block);
-  /// What was added becomes L; false if K is not positive definite, and then nothing is left of it.
+  /// Replaces K by L; returns false, and destroys K, if K is not positive definite.
   bool factorize();
-  /// x, by node, becomes K⁻¹ x.
+  /// Replaces x, by node, by K⁻¹ x.
   void solve(std::span<Six<double>> x) const;
-  /// Of blocks, to factorize it.
+  /// Returns the number of block products of a factorization.
   std::uint64_t products() const;
 
  private:
-  using Columns = std::array<Six<double>, 6>;  ///< Of a block.
+  using Columns = std::array<Six<double>, 6>;  ///< Columns of a block.
 
   static Columns columns_of(const Block& block);
   static Block block_of(const Columns& columns);
 
-  std::vector<std::uint32_t> order_, place_;  ///< Nodes as they are eliminated; when, per node.
-  /// By columns in that order, each from its diagonal down; of L, with the diagonal's inverse.
+  /// Nodes in order of elimination, and the place of each node in that order.
+  std::vector<std::uint32_t> order_, place_;
+  /// Blocks by columns in order of elimination, each column from the diagonal down; after
+  /// factorize() those of L, with inverse diagonal blocks.
   std::vector<Columns> blocks_;
-  std::vector<std::uint32_t> rows_;     ///< Per block.
-  std::vector<std::uint32_t> columns_;  ///< Where each begins; and the end.
+  std::vector<std::uint32_t> rows_;  ///< Row of each block.
+  /// Index of the first block of each column, and the number of blocks.
+  std::vector<std::uint32_t> columns_;
 };
 
 }  // namespace sunder::fracture

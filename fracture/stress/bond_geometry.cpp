@@ -7,8 +7,8 @@
 namespace sunder::fracture {
 namespace {
 
-/// Keeps the part of a flat polygon on the inner side of the edge from `p` to `q`, for an edge
-/// that runs counter-clockwise about `normal`.
+/// Keeps the part of a flat polygon on the inner side of the edge from `p` to `q`, which runs
+/// counter-clockwise about `normal`.
 void cut_by_edge(const Vec3& p, const Vec3& q, const Vec3& normal, std::vector<Vec3>& polygon,
                  std::vector<Vec3>& kept) {
   const Vec3 inward = normal.cross(q - p);
@@ -25,8 +25,8 @@ void cut_by_edge(const Vec3& p, const Vec3& q, const Vec3& normal, std::vector<V
 
 using CapContours = std::vector<std::vector<Vec3>>;
 
-/// Calls `visit(area, a, b, c)` for triangles that make up the contours; areas have signs, so that
-/// sums are right for polygons of any shape, and holes count negative.
+/// Calls `visit(area, a, b, c)` for triangles of the contours. Areas are signed, so that sums are
+/// correct for concave polygons and for holes.
 template <class Visit>
 void for_triangles(const CapContours& contours, const Vec3& normal, const Visit& visit) {
   for (const std::vector<Vec3>& corners : contours) {
@@ -37,7 +37,7 @@ void for_triangles(const CapContours& contours, const Vec3& normal, const Visit&
   }
 }
 
-/// Area, centroid and second moment as sums over triangles.
+/// Computes area, centroid and second moment as sums over triangles.
 void integrate(const CapContours& contours, BondGeometry& bond) {
   Vec3 moment = Vec3::Zero();
   for_triangles(contours, bond.normal_R,
@@ -63,7 +63,7 @@ void integrate(const CapContours& contours, BondGeometry& bond) {
   }
 }
 
-/// The cap of a convex's visual mesh in one of its faces; empty for an internal convex.
+/// Returns the cap of a convex's visual mesh in one of its faces; empty for an internal convex.
 CapContours cap(const Convex& convex, std::uint32_t face) {
   CapContours contours;
   if (convex.is_internal()) return contours;
@@ -88,7 +88,7 @@ double area_of(const CapContours& contours, const Vec3& normal) {
   return sum;
 }
 
-/// The smaller of the caps of a bond's two convexes, seen against a's normal; empty if both are
+/// Returns the smaller cap of a bond's convexes, seen against a's normal; empty if both are
 /// internal.
 CapContours smaller_cap(const Compound& compound, const Bond& bond) {
   const Vec3& normal = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].plane.normal;
@@ -99,7 +99,7 @@ CapContours smaller_cap(const Compound& compound, const Bond& bond) {
   return b.empty() || area_of(a, normal) <= area_of(b, normal) ? a : b;
 }
 
-/// What the faces of two polyhedra have in common.
+/// Returns the overlap of the two faces of a bond.
 std::vector<Vec3> common_polygon(const Compound& compound, const Bond& bond) {
   const ConvexPolyhedron& a = compound.convexes[bond.a]->polyhedron;
   const ConvexPolyhedron& b = compound.convexes[bond.b]->polyhedron;

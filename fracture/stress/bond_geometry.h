@@ -1,5 +1,4 @@
-// Where two convexes touch and how the touching area is shaped: what the stress solve needs to
-// know of a bond beyond its area.
+// Geometry of the contact area of a bond, as the stress solve needs it.
 #pragma once
 
 #include <vector>
@@ -8,19 +7,19 @@
 
 namespace sunder::fracture {
 
-/// The polygon that the two faces of a bond have in common; of convexes with a visual mesh, what
-/// their meshes' caps have in common, shaped as the smaller cap.
+/// Geometry of the overlap of a bond's two faces. For convexes with visual meshes, its shape is
+/// that of the smaller of their caps, and its area that of the bond.
 struct BondGeometry {
   Vec3 centroid_R = Vec3::Zero();
-  Vec3 normal_R = Vec3::UnitY();  ///< Unit, from convex a to convex b.
+  Vec3 normal_R = Vec3::UnitY();  ///< Unit normal from convex a to convex b.
   double area_m2 = 0;
   Mat3 second_moment = Mat3::Zero();  ///< ∫ r rᵀ dA about the centroid, m⁴.
-  double reach_m = 0;                 ///< From the centroid to the farthest corner.
+  double reach_m = 0;                 ///< Distance from the centroid to the farthest corner.
 };
 
-/// Of a bond of the compound; without area where the faces no longer overlap.
+/// Returns the geometry of a bond of the compound; the area is 0 if the faces do not overlap.
 BondGeometry bond_geometry(const Compound& compound, const Bond& bond);
-/// The corners of that polygon, or of the smaller cap.
+/// Returns the corners of the overlap, or of the smaller cap.
 std::vector<Vec3> bond_corners(const Compound& compound, const Bond& bond);
 
 }  // namespace sunder::fracture

@@ -26,17 +26,18 @@ ConvexMasses::ConvexMasses(const Compound& compound, std::span<const Material> m
     masses_kg_.push_back(density * convex.solid.volume_m3);
     inertias_.push_back(density * convex.solid.inertia());
   }
-  for (const Ghost& ghost : compound.ghosts) {  // what is counted twice, shared
+  // Shares volume that is counted twice among the convexes.
+  for (const Ghost& ghost : compound.ghosts) {
     const Convex& common = *ghost.convex;
     const double mass = materials[common.material.value].density_kg_m3 * common.solid.volume_m3;
     for (const std::uint32_t c : ghost.of) {
       masses_kg_[c] += ghost.sign * mass / static_cast<double>(ghost.of.size());
     }
   }
-  fix(compound);
+  find_fixed(compound);
 }
 
-void ConvexMasses::fix(const Compound& compound) {
+void ConvexMasses::find_fixed(const Compound& compound) {
   const std::vector<std::uint32_t> island = find_islands(compound);
   std::vector<std::vector<std::uint32_t>> members;
   for (std::uint32_t c = 0; c < island.size(); ++c) {
@@ -52,25 +53,25 @@ void ConvexMasses::fix(const Compound& compound) {
       return masses_kg_[x] < masses_kg_[y];
     });
     fixed_[*heaviest] = 1;
-    add_loose(std::move(convexes));
+    add_free_island(std::move(convexes));
   }
 }
 
-void ConvexMasses::add_loose(std::vector<std::uint32_t> convexes) {
-  Loose loose;
+void ConvexMasses::add_free_island(std::vector<std::uint32_t> convexes) {
+  FreeIsland island;
   Mat3 inertia = Mat3::Zero();
   for (const std::uint32_t c : convexes) {
-    loose.mass_kg += masses_kg_[c];
-    loose.com_R += masses_kg_[c] * centroids_[c];
+    island.mass_kg += masses_kg_[c];
+    island.com_R += masses_kg_[c] * centroids_[c];
   }
-  loose.com_R /= loose.mass_kg;
+  island.com_R /= island.mass_kg;
   for (const std::uint32_t c : convexes) {
-    const Vec3 arm = centroids_[c] - loose.com_R;
+    const Vec3 arm = centroids_[c] - island.com_R;
     inertia += inertias_[c] + masses_kg_[c] * parallel_axis(arm);
   }
-  loose.inverse_inertia = inertia.inverse();
-  loose.convexes = std::move(convexes);
-  loose_.push_back(std::move(loose));
+  island.inverse_inertia = inertia.inverse();
+  island.convexes = std::move(convexes);
+  free_islands_.push_back(std::move(island));
 }
 
 void ConvexMasses::balance(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
@@ -84,44 +85,44 @@ void ConvexMasses::balance(std::span<const ConvexLoad> loads, const Vec3& gravit
     torques_Nm[load.convex] +=
         load.torque_Nm + (load.point_R - centroids_[load.convex]).cross(load.force_N);
   }
-  for (const Loose& loose : loose_) {
+  for (const FreeIsland& island : free_islands_) {
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    for (const std::uint32_t c : loose.convexes) {
-      const Vec3 arm = centroids_[c] - loose.com_R;
+    for (const std::uint32_t c : island.convexes) {
+      const Vec3 arm = centroids_[c] - island.com_R;
       forces_N[c] -= masses_kg_[c] * spin_R.cross(spin_R.cross(arm));
       torques_Nm[c] -= spin_R.cross(inertias_[c] * spin_R);
       force += forces_N[c];
       torque += torques_Nm[c] + arm.cross(forces_N[c]);
     }
-    // Of Euler's equations, since the torque holds that of the spin.
-    const Vec3 acceleration = force / loose.mass_kg, turn = loose.inverse_inertia * torque;
-    for (const std::uint32_t c : loose.convexes) {
-      forces_N[c] -= masses_kg_[c] * (acceleration + turn.cross(centroids_[c] - loose.com_R));
+    // Angular acceleration by Euler's equations; the torque includes the gyroscopic term.
+    const Vec3 acceleration = force / island.mass_kg, turn = island.inverse_inertia * torque;
+    for (const std::uint32_t c : island.convexes) {
+      forces_N[c] -= masses_kg_[c] * (acceleration + turn.cross(centroids_[c] - island.com_R));
       torques_Nm[c] -= inertias_[c] * turn;
     }
   }
 }
 
-SwingResponse ConvexMasses::response(std::span<const ConvexLoad> loads,
-                                     std::span<const Displacement> displacements) const {
+DeflectionResponse ConvexMasses::response(std::span<const ConvexLoad> loads,
+                                          std::span<const Displacement> displacements) const {
   std::vector<Vec3> forces_N, torques_Nm;
   balance(loads, Vec3::Zero(), Vec3::Zero(), forces_N, torques_Nm);
-  SwingResponse all;
+  DeflectionResponse all;
   for (std::size_t c = 0; c < centroids_.size(); ++c) {
     const Vec3 &u = displacements[c].shift_R, &turn = displacements[c].rotation_R;
     all.work_J += forces_N[c].dot(u) + torques_Nm[c].dot(turn);
     all.mass_kg_m2 += masses_kg_[c] * u.squaredNorm() + turn.dot(inertias_[c] * turn);
   }
-  for (const Loose& loose : loose_) {
+  for (const FreeIsland& island : free_islands_) {
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-    for (const std::uint32_t c : loose.convexes) {
+    for (const std::uint32_t c : island.convexes) {
       const Vec3 push = masses_kg_[c] * displacements[c].shift_R;
       linear += push;
       angular +=
-          (centroids_[c] - loose.com_R).cross(push) + inertias_[c] * displacements[c].rotation_R;
+          (centroids_[c] - island.com_R).cross(push) + inertias_[c] * displacements[c].rotation_R;
     }
     all.mass_kg_m2 -=
-        linear.squaredNorm() / loose.mass_kg + angular.dot(loose.inverse_inertia * angular);
+        linear.squaredNorm() / island.mass_kg + angular.dot(island.inverse_inertia * angular);
   }
   return all;
 }
@@ -131,9 +132,9 @@ double ConvexMasses::applied_N(std::span<const ConvexLoad> loads, const Vec3& gr
   double applied_N = 0;
   for (const double mass : masses_kg_) applied_N += mass * gravity_R.norm();
   for (const ConvexLoad& load : loads) applied_N += load.force_N.norm();
-  for (const Loose& loose : loose_) {
-    for (const std::uint32_t c : loose.convexes) {
-      const Vec3 arm = centroids_[c] - loose.com_R;
+  for (const FreeIsland& island : free_islands_) {
+    for (const std::uint32_t c : island.convexes) {
+      const Vec3 arm = centroids_[c] - island.com_R;
       applied_N += masses_kg_[c] * spin_R.cross(spin_R.cross(arm)).norm();
     }
   }

@@ -10,17 +10,18 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr std::size_t kGroup = 8;  // nodes that move as one on the next coarser level
-// Groups that move rigidly are too stiff: their correction is lengthened by this much.
+constexpr std::size_t kGroupSize = 8;  // Nodes per group of the next coarser level.
+// Factor for coarse corrections, as rigid groups are too stiff.
 constexpr float kOvercorrection = 1.4f;
-// A level is solved directly if that costs no more than so many iterations, and it has no more
-// nodes than can be put in order in no time.
+// A level is solved directly if that costs at most this many iterations and the level has at most
+// kDirectNodes nodes, which limits the time to order them.
 constexpr std::uint64_t kDirectIterations = 50;
 constexpr std::size_t kDirectNodes = 1000;
-constexpr float kDamping = 2.0f / 3;  // of block Jacobi; the blocks bound the spectrum by 2
+// Damping of block Jacobi, whose blocks bound the spectrum by 2.
+constexpr float kDamping = 2.0f / 3;
 constexpr std::size_t kChunk = 1024;
 
-/// Sum over nodes in an order that threads do not change.
+/// Returns the sum over nodes in an order that does not depend on threads.
 template <class Term>
 double ordered_sum(std::size_t nodes, const Term& term) {
   std::vector<double> partial((nodes + kChunk - 1) / kChunk);
@@ -38,7 +39,7 @@ double dot(const Nodal<double>& x, const Nodal<double>& y) {
   return ordered_sum(x.size(), [&](std::size_t i) { return dot(x[i], y[i]); });
 }
 
-/// x += factor · y
+/// Computes x += factor · y.
 template <class Real>
 void add(Real factor, const Nodal<Real>& y, Nodal<Real>& x) {
   for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -49,8 +50,8 @@ void add(Real factor, const Nodal<Real>& y, Nodal<Real>& x) {
   });
 }
 
-/// x = y + beta · x
-void lengthen(double beta, const Nodal<double>& y, Nodal<double>& x) {
+/// Computes x = y + beta · x.
+void scale_and_add(double beta, const Nodal<double>& y, Nodal<double>& x) {
   for_chunks(x.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       x[i].linear = y[i].linear + splat<double>(beta) * x[i].linear;
@@ -59,7 +60,7 @@ void lengthen(double beta, const Nodal<double>& y, Nodal<double>& x) {
   });
 }
 
-/// y = x / unit as floats; what is rounding beside the unit becomes zero (see SpringLevel).
+/// Computes y = x / unit in single precision; rounding errors become zero (see spring_math.h).
 void to_float(const Nodal<double>& x, double unit, Nodal<float>& y) {
   constexpr double kLeast = 1e-15;
   const auto one = [&](Simd4<double> part) {
@@ -72,7 +73,7 @@ void to_float(const Nodal<double>& x, double unit, Nodal<float>& y) {
   });
 }
 
-/// y = unit · x
+/// Computes y = unit · x.
 void to_double(const Nodal<float>& x, double unit, Nodal<double>& y) {
   const auto one = [&](Simd4<float> part) {
     return splat<double>(unit) * __builtin_convertvector(part, Simd4<double>);
@@ -82,8 +83,8 @@ void to_double(const Nodal<float>& x, double unit, Nodal<double>& y) {
   });
 }
 
-/// What a spring adds to the stiffness matrix between nodes at these places, or with two nodes
-/// takes from it: of (force, torque) by (shift, rotation).
+/// Returns the block that a spring adds to the diagonal of the stiffness matrix for a node at `at`
+/// = `by`, or subtracts between two nodes there: (force, torque) by (shift, rotation).
 Eigen::Matrix<double, 6, 6> stiffness(const Spring& spring, const Vec3& at, const Vec3& by) {
   Eigen::Matrix<double, 6, 6> block;
   const Mat3 arm = cross_matrix(spring.place - at), other = cross_matrix(spring.place - by);
@@ -93,7 +94,7 @@ Eigen::Matrix<double, 6, 6> stiffness(const Spring& spring, const Vec3& at, cons
   return block;
 }
 
-/// 1 if there are none.
+/// Returns the mean stiffness of springs; 1 if there are none.
 double mean_stretch_N_m(std::span<const Spring> springs) {
   if (springs.empty()) return 1;
   double sum = 0;
@@ -108,7 +109,7 @@ Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
   to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
   while (!factorize(false)) {
-    SpringGroups groups(levels_.back(), kGroup);
+    SpringGroups groups(levels_.back(), kGroupSize);
     SUNDER_CHECK(groups.count() < levels_.back().size());
     levels_.push_back(groups.coarsen(levels_.back()));
     groups_.push_back(std::move(groups));
@@ -132,20 +133,19 @@ void Multigrid::to_units(std::vector<Spring>& springs) const {
   }
 }
 
-/// Makes the coarsest level ready to be solved; false if there should be a coarser one, unless that
-/// is how it has `to_be`.
-bool Multigrid::factorize(bool to_be) {
-  // In double precision: how softly all of it hangs on the world is lost beside its stiffness.
+/// Factorizes the coarsest level; returns false if a coarser one is needed, unless `keep_level`.
+bool Multigrid::factorize(bool keep_level) {
+  // In double precision: the stiffness to the world may be tiny beside that between nodes.
   const SpringLevel<float>& last = levels_.back();
   std::vector<BlockCholesky::Pair> pairs;
   last.for_each_spring([&](const Spring& spring) {
     if (spring.a != Spring::kWorld && spring.b != Spring::kWorld)
       pairs.emplace_back(spring.a, spring.b);
   });
-  if (pairs.empty()) to_be = true;  // each on its own
-  if (!to_be && last.size() > kDirectNodes) return false;
+  if (pairs.empty()) keep_level = true;  // Each node is on its own.
+  if (!keep_level && last.size() > kDirectNodes) return false;
   BlockCholesky matrix(last.size(), pairs);
-  if (!to_be && matrix.products() > kDirectIterations * pairs.size()) return false;
+  if (!keep_level && matrix.products() > kDirectIterations * pairs.size()) return false;
   using Row = Eigen::Matrix<double, 6, 1>;
   std::vector<Row> diagonal(last.size(), Row::Zero());
   last.for_each_spring([&](const Spring& spring) {
@@ -161,17 +161,17 @@ bool Multigrid::factorize(bool to_be) {
   });
   double most = 0;
   for (const Row& row : diagonal) most = std::max(most, row.maxCoeff());
-  if (!(most > 0)) most = 1;                             // nothing is left that could move
-  for (std::uint32_t i = 0; i < diagonal.size(); ++i) {  // groups that an edit has emptied
+  if (!(most > 0)) most = 1;                             // No node can move.
+  for (std::uint32_t i = 0; i < diagonal.size(); ++i) {  // An edit may have emptied groups.
     const Row missing = (diagonal[i].array() == 0).select(most, Row::Zero());
     if (!missing.isZero(0)) matrix.add(i, i, missing.asDiagonal());
   }
-  // What hangs by next to nothing gets a little ground of its own, as much as it takes.
-  for (double ground = 1e-13; ground < 1; ground *= 100) {
+  // A nearly singular matrix gets the least diagonal shift that makes it positive definite.
+  for (double diagonal_shift = 1e-13; diagonal_shift < 1; diagonal_shift *= 100) {
     coarsest_ = matrix;
     if (coarsest_.factorize()) return true;
     for (std::uint32_t i = 0; i < diagonal.size(); ++i)
-      matrix.add(i, i, ground * most * BlockCholesky::Block::Identity());
+      matrix.add(i, i, diagonal_shift * most * BlockCholesky::Block::Identity());
   }
   SUNDER_CHECK(false);
   return false;
@@ -200,7 +200,7 @@ void Multigrid::cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,
   here.residual(r, z, s.rest);
   groups_[level].restrict_to(s.rest, s.coarse_r);
   cycle(level + 1, s.coarse_r, s.coarse_z, scratch);
-  if (level + 2 < levels_.size()) {  // once more, for what is left
+  if (level + 2 < levels_.size()) {  // A second cycle makes it a W-cycle.
     levels_[level + 1].residual(s.coarse_r, s.coarse_z, s.coarse_rest);
     cycle(level + 1, s.coarse_rest, s.correction, scratch);
     add(1.0f, s.correction, s.coarse_z);
@@ -219,12 +219,14 @@ std::vector<Multigrid::Scratch> Multigrid::scratch() const {
   return scratch;
 }
 
-SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double nothing_N,
-                             int most_iterations, Nodal<double>& x, Nodal<double>& way) const {
+SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double rounding_N,
+                             int most_iterations, Nodal<double>& x,
+                             Nodal<double>& last_direction) const {
   std::vector<Scratch> memory = scratch();
-  Nodal<double> r = springs_.zero(), z = r, p = std::exchange(way, {}), product = r;
+  Nodal<double> r = springs_.zero(), z = r, p = std::exchange(last_direction, {}), product = r;
   springs_.residual(f, x, r);
-  if (!(dot(x, f) + dot(x, r) >= 0)) {  // a guess of more energy, xᵀKx / 2 - fᵀx, than none has
+  // The guess has more energy, xᵀKx / 2 − fᵀx, than no displacement has.
+  if (!(dot(x, f) + dot(x, r) >= 0)) {
     x = springs_.zero();
     r = f;
     p.clear();
@@ -239,7 +241,7 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
   for (;; ++result.iterations) {
     const double left = std::sqrt(dot(r, r));
     result.residual = force > 0 ? left / force : 0;
-    if (left <= nothing_N) {
+    if (left <= rounding_N) {
       result.converged = true;
       break;
     }
@@ -253,16 +255,16 @@ SolveResult Multigrid::solve(const Nodal<double>& f, double tolerance, double no
     // A new direction is conjugate to the last one.
     double beta = result.iterations > 0 ? rz_new / rz : 0;
     if (result.iterations == 0 && goes_on) beta = -dot(z, product) / dot(p, product);
-    lengthen(beta, z, p);
+    scale_and_add(beta, z, p);
     rz = rz_new;
     springs_.multiply(p, product);
     const double curvature = dot(p, product);
-    if (!(curvature > 0)) break;  // nothing but rounding is left
+    if (!(curvature > 0)) break;  // Only rounding errors are left.
     const double alpha = rz / curvature;
     add(alpha, p, x);
     add(-alpha, product, r);
   }
-  if (!result.converged && result.iterations == most_iterations) way = std::move(p);
+  if (!result.converged && result.iterations == most_iterations) last_direction = std::move(p);
   return result;
 }
 

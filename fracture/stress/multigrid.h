@@ -1,7 +1,7 @@
-// Solves K x = f for the springs of a compound: conjugate gradients (Hestenes and Stiefel 1952),
-// preconditioned by a W-cycle over coarser and coarser levels of springs, of which the last is
-// solved directly; for most compounds that is the first. The cycle is in single precision: it
-// decides how fast the answer comes, not what it is.
+// Solves K x = f for the springs of a compound by conjugate gradients (Hestenes and Stiefel 1952),
+// preconditioned by a multigrid W-cycle over ever coarser levels of springs. The coarsest level is
+// solved directly; in most compounds it is the first. The cycle is in single precision, which
+// affects the number of iterations, not the result.
 //
 // Read first: Multigrid::solve(), then cycle().
 #pragma once
@@ -15,33 +15,34 @@
 
 namespace sunder::fracture {
 
-/// How far a solve came.
+/// Result of a solve.
 struct SolveResult {
   int iterations = 0;
-  double residual = 0;  ///< Of forces and torques, relative to f.
-  double error = 0;     ///< Estimate in the norm of energy, relative to x: that of the stresses.
+  double residual = 0;  ///< Residual of forces and torques, relative to f.
+  /// Estimated error in the energy norm, relative to x; it is about that of the stresses.
+  double error = 0;
   bool converged = false;
 };
 
-/// The springs of a compound on all levels; any thread may solve.
+/// The springs of a compound on all levels; may be used from any thread.
 class Multigrid {
  public:
-  /// Every node hangs on the world, by springs over other nodes perhaps.
+  /// Every node must be connected to the world, directly or through other nodes.
   Multigrid(std::size_t nodes, std::vector<Spring> springs);
-  /// Another after an edit of its springs: on all levels, groups that an edit does not reach stay
-  /// as they are, and what is new joins the groups beside it.
+  /// Copies `old` and applies an edit of its springs. On all levels, groups outside the edit stay
+  /// the same, and new nodes join neighbouring groups.
   Multigrid(const Multigrid& old, SpringEdit edit);
 
-  /// The finest level, in SI units.
+  /// Returns the finest level, in SI units.
   const SpringLevel<double>& springs() const { return springs_; }
-  /// What it cost to make the coarsest level ready, in visits of springs: a product of blocks takes
-  /// about as long, what else there is to do counted.
+  /// Returns the cost of factorizing the coarsest level, in evaluations of springs; a block product
+  /// counts as one, with the overhead around it.
   std::uint64_t direct_work() const { return coarsest_.products(); }
-  /// Improves x until residual and error are at most `tolerance`, what is left is rounding
-  /// (`nothing_N`), or so many iterations are done. `way`: the direction in which an unfinished
-  /// solve went last, from which this one goes on; empty if there was none.
-  SolveResult solve(const Nodal<double>& f, double tolerance, double nothing_N, int most_iterations,
-                    Nodal<double>& x, Nodal<double>& way) const;
+  /// Improves x until residual and error are at most `tolerance`, the residual is rounding (at most
+  /// `rounding_N`), or `most_iterations` are done. `last_direction` is the last search direction of
+  /// an unfinished solve, from which this one continues; empty if there is none.
+  SolveResult solve(const Nodal<double>& f, double tolerance, double rounding_N,
+                    int most_iterations, Nodal<double>& x, Nodal<double>& last_direction) const;
 
  private:
   /// Memory of one level of a cycle.
@@ -50,17 +51,17 @@ class Multigrid {
   };
 
   void to_units(std::vector<Spring>& springs) const;
-  bool factorize(bool to_be);
+  bool factorize(bool keep_level);
   std::vector<Scratch> scratch() const;
-  /// z = (about) K⁻¹ r, on one level and those below it; symmetric.
+  /// Sets z ≈ K⁻¹ r on one level and those below it, by a symmetric operator.
   void cycle(std::size_t level, const Nodal<float>& r, Nodal<float>& z,
              std::span<Scratch> scratch) const;
   void solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const;
 
   SpringLevel<double> springs_;
-  double unit_N_m_;  ///< The levels' unit of stiffness: their numbers are about one.
+  double unit_N_m_;  ///< Unit of stiffness of the levels, so that their numbers are about one.
   std::vector<SpringLevel<float>> levels_;  ///< The same springs, then coarser ones.
-  std::vector<SpringGroups> groups_;        ///< Of each level but the coarsest.
+  std::vector<SpringGroups> groups_;        ///< Groups of each level but the coarsest.
   BlockCholesky coarsest_;
 };
 

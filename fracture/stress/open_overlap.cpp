@@ -12,12 +12,12 @@
 namespace sunder::fracture {
 namespace {
 
-/// Fraction of the width of a convex (cube root of the volume) below which an overlap, or a part
-/// that is left of the convex, is rounding.
+/// Thickness of an overlap or part, over the width of the convex (cube root of its volume), below
+/// which it is a rounding error.
 constexpr double kThinnest = 1e-9;
-/// Fraction of the surface of an embedded part below which its faces cancel: the part goes through
-/// the other convex, and is held by shear alone.
-constexpr double kGoesThrough = 0.1;
+/// Share of an embedded part's surface below which its faces cancel: the part goes through the
+/// other convex and is held by shear alone.
+constexpr double kPassesThrough = 0.1;
 
 bool has_face(const Convex& convex, PlaneId id) {
   return std::ranges::any_of(convex.polyhedron.faces, [&](const auto& f) { return f.id == id; });
@@ -40,10 +40,10 @@ EmbeddedSurface surface_on(const Convex& overlap, const Convex& side) {
   return all;
 }
 
-/// Convexes that overlap a convex, and whether the overlap weighs; ascending.
+/// Returns the convexes that overlap a convex, ascending, and whether the overlap has volume.
 std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, ConvexSlot slot) {
   std::vector<std::pair<ConvexSlot, bool>> found;
-  for (const std::uint32_t number : structure.ghosts_of(slot)) {
+  for (const std::uint32_t number : structure.ghost_indices(slot)) {
     const Ghost& ghost = structure.ghost(number);
     if (ghost.of.size() != 2) continue;
     const std::uint32_t other = ghost.of[0] == slot.value ? ghost.of[1] : ghost.of[0];
@@ -54,8 +54,8 @@ std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, Co
   return found;
 }
 
-/// The first of the convexes after `slot` that overlap it and have another material. An overlap
-/// has the density of its first convex, so only its last may lose it; none() if there is none.
+/// Returns the first convex after `slot` that overlaps it and has another material; none() if there
+/// is none. An overlap has the density of its first convex, so only its last may be cut.
 ConvexSlot denser_successor(const Structure& structure, ConvexSlot slot) {
   for (const auto& [other, weighs] : partners(structure, slot)) {
     if (weighs && other > slot &&
@@ -65,7 +65,7 @@ ConvexSlot denser_successor(const Structure& structure, ConvexSlot slot) {
   return {};
 }
 
-/// The convex that is cut to open an overlap.
+/// Returns the convex that is cut to open an overlap.
 ConvexSlot choose_cut(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const auto volume = [&](ConvexSlot slot) { return structure.convex(slot)->solid.volume_m3; };
   if (volume(a) < volume(b) && denser_successor(structure, a).none()) return a;
@@ -85,7 +85,7 @@ double overlap_utilisation(const Compound& compound, const Ghost& ghost, const W
   const Strength strength = weaker_of(materials[a.material.value], materials[b.material.value]);
   double section_m2 = on_a.vector_area_m2.norm();
   Vec3 normal = Vec3::Zero();
-  if (section_m2 > kGoesThrough * surface_m2) {
+  if (section_m2 > kPassesThrough * surface_m2) {
     normal = on_a.vector_area_m2 / section_m2;
   } else {
     section_m2 = surface_m2;
@@ -105,7 +105,7 @@ BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const double thinnest_m = kThinnest * std::cbrt(old.solid.volume_m3);
   const ConvexSlot opened = cut == a ? b : a;
 
-  std::vector<ConvexSlot> around, held;  // `held`: their overlaps with surface convexes stay
+  std::vector<ConvexSlot> around, held;  // The overlaps of `held` with surface convexes are kept.
   std::vector<const ConvexPolyhedron*> others;
   for (const auto& [other, weighs] : partners(structure, cut)) {
     around.push_back(other);

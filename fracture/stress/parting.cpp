@@ -8,9 +8,9 @@
 namespace sunder::fracture {
 namespace {
 
-/// The island that stays: the largest of those that are anchored, or of all.
-std::uint32_t staying(const Compound& compound, const std::vector<std::uint32_t>& island,
-                      std::uint32_t islands) {
+/// Returns the island that stays: the largest with an anchor, or the largest of all.
+std::uint32_t island_that_stays(const Compound& compound, const std::vector<std::uint32_t>& island,
+                                std::uint32_t islands) {
   std::vector<std::pair<bool, std::uint32_t>> rank(islands);
   for (std::uint32_t c = 0; c < island.size(); ++c) {
     rank[island[c]].first |= compound.anchored[c] != 0;
@@ -19,8 +19,8 @@ std::uint32_t staying(const Compound& compound, const std::vector<std::uint32_t>
   return static_cast<std::uint32_t>(std::max_element(rank.begin(), rank.end()) - rank.begin());
 }
 
-/// Its sides change places: what slides in it does so along the side that stays.
-void turn(PlasticHinge& hinge) {
+/// Swaps the sides of a hinge, so that sliding follows the side that stays.
+void swap_sides(PlasticHinge& hinge) {
   for (Bond& bond : hinge.bonds) std::swap(bond.a, bond.b), std::swap(bond.face_a, bond.face_b);
   Mat3& axes_R = hinge.section.strength.axes_R;
   axes_R.col(0) *= -1, axes_R.col(2) *= -1;
@@ -28,8 +28,8 @@ void turn(PlasticHinge& hinge) {
 
 }  // namespace
 
-BreakEdit part(const Compound& compound, const std::vector<ConvexSlot>& slots,
-               const std::vector<Bond>& cut, std::vector<PlasticHinge> hinges) {
+BreakEdit separate_islands(const Compound& compound, const std::vector<ConvexSlot>& slots,
+                           const std::vector<Bond>& cut, std::vector<PlasticHinge> hinges) {
   BreakEdit edit;
   for (Bond bond : cut) {
     bond.a = slots[bond.a].value;
@@ -39,8 +39,8 @@ BreakEdit part(const Compound& compound, const std::vector<ConvexSlot>& slots,
   const std::vector<std::uint32_t> island = find_islands(compound);
   const std::uint32_t islands = 1 + *std::max_element(island.begin(), island.end());
   if (islands == 1) return edit;
-  const std::uint32_t stays = staying(compound, island, islands);
-  const auto piece_of = [&](std::uint32_t c) {  // as exposed faces name it
+  const std::uint32_t stays = island_that_stays(compound, island, islands);
+  const auto piece_of = [&](std::uint32_t c) {  // Index as in ExposedFace::piece.
     return island[c] == stays ? 0 : island[c] + (island[c] < stays ? 1 : 0);
   };
   edit.changed = true;
@@ -77,7 +77,7 @@ BreakEdit part(const Compound& compound, const std::vector<ConvexSlot>& slots,
                             compound.convexes[bond.b]->material});
   }
   for (PlasticHinge& hinge : hinges) {
-    if (island[hinge.bonds[0].b] == stays) turn(hinge);
+    if (island[hinge.bonds[0].b] == stays) swap_sides(hinge);
     hinge.piece_a = piece_of(hinge.bonds[0].a);
     hinge.piece_b = piece_of(hinge.bonds[0].b);
     for (Bond& bond : hinge.bonds) {

@@ -1,4 +1,4 @@
-// What comes off a compound whose bonds gave way, as an edit of the structure that it is of.
+// Makes the edit that separates a compound where bonds broke or flow.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,12 @@
 
 namespace sunder::fracture {
 
-/// The edit by which a structure, with these slots, becomes `compound`: which has neither the bonds
-/// that are `cut` nor those of `hinges`. Bonds and hinges are given by its convexes, the pieces of
-/// hinges not at all. Islands but one come off, in the order of their first convex; the largest of
-/// those that are anchored stays, or of all if none is.
-BreakEdit part(const Compound& compound, const std::vector<ConvexSlot>& slots,
-               const std::vector<Bond>& cut, std::vector<PlasticHinge> hinges);
+/// Returns the edit by which a structure, whose convexes have the given slots, becomes `compound`,
+/// from which the bonds in `cut` and in `hinges` are removed already. Bonds and hinges have indices
+/// of convexes; the pieces of hinges are set here. All islands but one come off, in the order of
+/// their first convexes: the largest of those with an anchor stays, or the largest of all if none
+/// has one.
+BreakEdit separate_islands(const Compound& compound, const std::vector<ConvexSlot>& slots,
+                           const std::vector<Bond>& cut, std::vector<PlasticHinge> hinges);
 
 }  // namespace sunder::fracture

@@ -13,31 +13,33 @@ namespace sunder::fracture {
 namespace {
 
 constexpr std::size_t kMostCrossings = 4096;
-// Bonds are in one plane if their areas add up as vectors to this share of what they are.
+// Bonds are in one plane if their vector areas add up to this share of the sum of their areas.
 constexpr double kInOnePlane = 0.999;
-constexpr double kPrism = 0.999;  // likewise of the directions of a prism's side edges
-constexpr double kWithin60 = 0.5, kWithin30 = 0.866, kWithinNothing = 1 - 1e-9;  // cosines
-constexpr double kLeastArea = 1e-6;  // of all areas: what folds back has none
+// A convex is a prism if the unit vectors of its side edges add up to this share of their number.
+constexpr double kPrism = 0.999;
+constexpr double kCos60 = 0.5, kCos30 = 0.866, kCosParallel = 1 - 1e-9;  // Cosines.
+// Least projected area over the sum of areas: the area of bonds that fold back is zero.
+constexpr double kLeastArea = 1e-6;
 constexpr int kHalvings = 80;
 
-/// A part of a section as it lies along one direction in it: evenly about its middle.
+/// A part of a section as a uniform load along one direction of the section.
 struct Strip {
   double force_N, at_m, half_m;
 
-  /// The part of it that is below.
+  /// Returns the share of the strip below a position.
   double below(double m) const {
     if (!(half_m > 0)) return at_m < m ? 1 : 0;
     return std::clamp((m - at_m + half_m) / (2 * half_m), 0.0, 1.0);
   }
-  /// The mean distance of its points.
+  /// Returns the mean distance of the strip's points from a position.
   double distance(double m) const {
     const double middle = std::abs(at_m - m);
     return middle >= half_m ? middle : (middle * middle + half_m * half_m) / (2 * half_m);
   }
 };
 
-/// What strips bear that pull on one side of a neutral axis and press on the other, which is where
-/// both are as strong.
+/// Returns the plastic moment of strips: those on one side of the neutral axis pull, those on the
+/// other push, and the axis is where both forces are equal.
 double bending_Nm(std::span<const Strip> strips) {
   double low = 1e300, high = -1e300, force = 0;
   for (const Strip& strip : strips) {
@@ -56,7 +58,7 @@ double bending_Nm(std::span<const Strip> strips) {
   return moment;
 }
 
-/// The direction in which a convex runs as a prism from one of its faces; none if it is no prism.
+/// Returns the axis of a convex that is a prism over one of its faces; none if it is no prism.
 std::optional<Vec3> prism_axis(const ConvexPolyhedron& convex, std::uint32_t face) {
   const auto end = convex.face_corners(face);
   const auto in_face = [&](std::uint32_t v) { return std::ranges::find(end, v) != end.end(); };
@@ -75,7 +77,7 @@ std::optional<Vec3> prism_axis(const ConvexPolyhedron& convex, std::uint32_t fac
   return sum.normalized();
 }
 
-Vec3 any_across(const Vec3& axis) {
+Vec3 any_perpendicular(const Vec3& axis) {
   return axis.cross(std::abs(axis.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
 }
 
@@ -92,7 +94,7 @@ double Sections::yield_Pa(std::uint32_t bond) const {
   return sunder::yield_Pa(of(compound_.bonds[bond].a), of(compound_.bonds[bond].b));
 }
 
-/// Before the first search: most structures never have one.
+/// Called before the first search, as most structures never have one.
 void Sections::index_bonds() {
   first_.assign(compound_.convexes.size() + 1, 0);
   for (const Bond& bond : compound_.bonds) ++first_[bond.a], ++first_[bond.b];
@@ -122,28 +124,28 @@ const Vec3& Sections::centroid(std::uint32_t convex) const {
   return compound_.convexes[convex]->solid.centroid;
 }
 
-std::uint32_t Sections::across(std::uint32_t bond, std::uint32_t convex) const {
+std::uint32_t Sections::other_convex(std::uint32_t bond, std::uint32_t convex) const {
   return compound_.bonds[bond].a ^ compound_.bonds[bond].b ^ convex;
 }
 
-/// What presses goes on doing so when nothing holds it any longer.
+/// Returns true if a bond is under compression: it transmits force even without strength.
 bool Sections::is_pressed(std::uint32_t bond) const {
   return system_.geometry()[bond].normal_R.dot(system_.wrench(bond, displacements_).force_N) < 0;
 }
 
-/// From the bond on to those that cross the plane too and are of the same convexes, or of convexes
-/// on the same side that are bonded to these or overlap them. Other members that the plane cuts are
-/// not reached.
-std::vector<Crossing> Sections::flood(std::uint32_t bond, const Vec3& normal_R) {
+/// Returns the bonds that cross the plane, found from bond to bond: those of a visited convex, and
+/// those of convexes on the same side that are bonded to it or overlap it. Other members that the
+/// plane crosses are not reached.
+std::vector<Crossing> Sections::find_crossings(std::uint32_t bond, const Vec3& normal_R) {
   const Vec3& point_R = system_.geometry()[bond].centroid_R;
   const auto ahead = [&](std::uint32_t c) { return normal_R.dot(centroid(c) - point_R) > 0; };
   if (ahead(compound_.bonds[bond].a) == ahead(compound_.bonds[bond].b)) return {};
   std::vector<Crossing> crossings;
-  bool gives_way = true;
+  bool all_give_way = true;
   const auto add = [&](std::uint32_t i) {
     if (seen_bond_[i] == search_) return;
     seen_bond_[i] = search_;
-    gives_way &= yield_Pa(i) > 0 || is_pressed(i);
+    all_give_way &= yield_Pa(i) > 0 || is_pressed(i);
     crossings.push_back({i, ahead(compound_.bonds[i].b)});
   };
   const auto add_those_of = [&](std::uint32_t convex) {
@@ -151,17 +153,17 @@ std::vector<Crossing> Sections::flood(std::uint32_t bond, const Vec3& normal_R) 
     seen_convex_[convex] = search_;
     work_ += bonds_of(convex).size();
     for (const std::uint32_t i : bonds_of(convex))
-      if (ahead(across(i, convex)) != ahead(convex)) add(i);
+      if (ahead(other_convex(i, convex)) != ahead(convex)) add(i);
   };
   ++search_;
   add(bond);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
-    if (!gives_way || crossings.size() > kMostCrossings) return {};
+    if (!all_give_way || crossings.size() > kMostCrossings) return {};
     const Bond& crossing = compound_.bonds[crossings[k].bond];
     for (const std::uint32_t convex : {crossing.a, crossing.b}) {
       add_those_of(convex);
       for (const std::uint32_t i : bonds_of(convex)) {
-        const std::uint32_t beside = across(i, convex);
+        const std::uint32_t beside = other_convex(i, convex);
         if (ahead(beside) == ahead(convex)) add_those_of(beside);
       }
       for (auto at = std::ranges::lower_bound(overlaps_, std::pair(convex, 0u));
@@ -173,9 +175,9 @@ std::vector<Crossing> Sections::flood(std::uint32_t bond, const Vec3& normal_R) 
   return crossings;
 }
 
-/// Their areas as vectors, summed: for all that ends in a closed line in a plane, that plane's
-/// normal and the area in it. Also the sum of the areas as such.
-Vec3 Sections::facing(std::span<const Crossing> crossings, double& area_m2) const {
+/// Returns the sum of the vector areas of bonds: for a closed outline in a plane, the area in the
+/// plane times its normal. Sets `area_m2` to the sum of the areas.
+Vec3 Sections::vector_area(std::span<const Crossing> crossings, double& area_m2) const {
   Vec3 sum = Vec3::Zero();
   area_m2 = 0;
   for (const Crossing& crossing : crossings) {
@@ -186,8 +188,7 @@ Vec3 Sections::facing(std::span<const Crossing> crossings, double& area_m2) cons
   return sum;
 }
 
-/// The principal axes of the centroids of what hangs together within four, three and two cells of
-/// a bond.
+/// Returns the principal axes of connected centroids within four, three and two cells of a bond.
 std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
   const Bond& own = compound_.bonds[bond];
   const Vec3& point_R = system_.geometry()[bond].centroid_R;
@@ -200,7 +201,7 @@ std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
   for (std::size_t k = 0; k < near.size(); ++k) {
     work_ += bonds_of(near[k]).size();
     for (const std::uint32_t i : bonds_of(near[k])) {
-      const std::uint32_t c = across(i, near[k]);
+      const std::uint32_t c = other_convex(i, near[k]);
       if (seen_convex_[c] == search_ || (centroid(c) - point_R).norm() > 4 * cell_m) continue;
       seen_convex_[c] = search_;
       near.push_back(c);
@@ -225,8 +226,8 @@ std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
   return axes;
 }
 
-/// What crossings bear whose areas, seen along `normal_R`, are these, bent about `bending_R` and
-/// across it.
+/// Returns the plastic strength of crossings whose areas, projected along `normal_R`, are
+/// `areas_m2`, in bending about `bending_R` and across it.
 SectionStrength Sections::strength(std::span<const Crossing> crossings,
                                    std::span<const double> areas_m2, const Vec3& normal_R,
                                    const Vec3& bending_R) const {
@@ -246,14 +247,14 @@ SectionStrength Sections::strength(std::span<const Crossing> crossings,
     strength.moment_Nm[axis] = bending_Nm(strips);
   }
   strength.shear_N = strength.axial_N * std::numbers::inv_sqrt3;  // von Mises
-  // A rectangle's by the heap of sand (Nadai 1923), told by what it bears bent either way.
+  // Torsion of a rectangle by the sand heap analogy (Nadai 1923), from its moments in bending.
   const double weak = std::min(strength.moment_Nm[1], strength.moment_Nm[2]);
   const double strong = std::max(strength.moment_Nm[1], strength.moment_Nm[2]);
   strength.moment_Nm[0] = std::numbers::inv_sqrt3 * weak * (2 - 2.0 / 3 * weak / strong);
   return strength;
 }
 
-Section Sections::of(std::vector<Crossing> crossings, const Vec3& normal_R) const {
+Section Sections::make_section(std::vector<Crossing> crossings, const Vec3& normal_R) const {
   Section section;
   std::erase_if(crossings, [&](const Crossing& crossing) {
     const bool yields = yield_Pa(crossing.bond) > 0;
@@ -282,7 +283,7 @@ Section Sections::of(std::vector<Crossing> crossings, const Vec3& normal_R) cons
   const Vec3 bending = wrench.moment_Nm - normal_R * normal_R.dot(wrench.moment_Nm);
   section.strength =
       strength(crossings, areas_m2, normal_R,
-               bending.norm() > 0 ? Vec3(bending.normalized()) : any_across(normal_R));
+               bending.norm() > 0 ? Vec3(bending.normalized()) : any_perpendicular(normal_R));
   if (!(section.strength.moment_Nm.minCoeff() > 0)) return {};
   section.utilisation = utilisation(section.strength, wrench);
   section.crossings = std::move(crossings);
@@ -293,17 +294,17 @@ Section Sections::at(std::uint32_t bond) {
   if (first_.empty()) index_bonds();
   const BondGeometry& g = system_.geometry()[bond];
   if (!(g.area_m2 > 0)) return {};
-  std::vector<Crossing> crossings = flood(bond, g.normal_R);
-  Section best = of(crossings, g.normal_R);
+  std::vector<Crossing> crossings = find_crossings(bond, g.normal_R);
+  Section best = make_section(crossings, g.normal_R);
   if (best.crossings.empty()) return best;
   double area_m2 = 0;
-  if (facing(crossings, area_m2).norm() > kInOnePlane * area_m2) {
+  if (vector_area(crossings, area_m2).norm() > kInOnePlane * area_m2) {
     const Bond& own = compound_.bonds[bond];
     for (const auto& [convex, face] : {std::pair(own.a, own.face_a), {own.b, own.face_b}}) {
       const auto axis = prism_axis(compound_.convexes[convex]->polyhedron, face);
       const double cosine = axis ? std::abs(axis->dot(g.normal_R)) : 0;
-      if (cosine < kWithin60 || cosine > kWithinNothing) continue;
-      Section section = of(crossings, convex == own.a ? Vec3(-*axis) : *axis);
+      if (cosine < kCos60 || cosine > kCosParallel) continue;
+      Section section = make_section(crossings, convex == own.a ? Vec3(-*axis) : *axis);
       if (!section.crossings.empty() && section.area_m2 < best.area_m2) best = std::move(section);
     }
     return best;
@@ -311,11 +312,11 @@ Section Sections::at(std::uint32_t bond) {
   double least_m2 = std::numeric_limits<double>::infinity();
   for (const Vec3& axis : axes_around(bond)) {
     const Vec3 ahead = axis.dot(g.normal_R) < 0 ? Vec3(-axis) : axis;
-    if (ahead.dot(g.normal_R) < kWithin60) continue;
-    crossings = flood(bond, ahead);
-    const Vec3 sum = facing(crossings, area_m2);
-    if (!(ahead.dot(sum) > kWithin30 * sum.norm()) || sum.norm() >= least_m2) continue;
-    Section section = of(std::move(crossings), ahead);
+    if (ahead.dot(g.normal_R) < kCos60) continue;
+    crossings = find_crossings(bond, ahead);
+    const Vec3 sum = vector_area(crossings, area_m2);
+    if (!(ahead.dot(sum) > kCos30 * sum.norm()) || sum.norm() >= least_m2) continue;
+    Section section = make_section(std::move(crossings), ahead);
     if (section.crossings.empty()) continue;
     least_m2 = sum.norm();
     best = std::move(section);

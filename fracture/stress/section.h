@@ -1,8 +1,8 @@
-// Plane sections of a compound: the bonds that a plane crosses about one of them, what they bear
-// when all of them flow, and what a load asks of them.
+// Plane sections of a compound: the bonds that a plane through one of them crosses, their plastic
+// strength, and their utilisation under a load.
 //
-// Nothing here needs polygons: how a bond's area lies about an axis is taken to be that of the
-// rectangle of its area and second moment, which is exact for boxes.
+// The shape of a bond enters as that of a rectangle with its area and second moment, which is exact
+// for boxes; polygons are not needed.
 //
 // Read first: Sections::at().
 #pragma once
@@ -19,62 +19,62 @@
 
 namespace sunder::fracture {
 
-/// A bond that leads from one side of a plane to the other.
+/// A bond that crosses the plane of a section.
 struct Crossing {
   std::uint32_t bond = 0;
-  bool forward = true;  ///< Its convex b is the one ahead of the plane.
+  bool forward = true;  ///< Its convex b is ahead of the plane.
 };
 
-/// Bonds that one plane crosses, and that hang together there.
+/// Connected bonds that one plane crosses.
 struct Section {
   std::vector<Crossing> crossings;  ///< In the order of bonds; empty: there is no such section.
-  /// Bonds beside these that do not yield and are pressed, ascending: what is left of them when the
-  /// section flows is that their convexes touch.
+  /// Further bonds of the section that do not yield and are under compression, ascending: when the
+  /// section flows, only the contact of their convexes remains.
   std::vector<std::uint32_t> pressed;
   Vec3 centroid_R = Vec3::Zero();
-  double area_m2 = 0;  ///< Of the bonds, seen along the normal.
-  /// Its second axis is the one that the load bends it about.
+  double area_m2 = 0;  ///< Area of the bonds, projected along the normal.
+  /// The second axis is the axis of bending under the load.
   SectionStrength strength;
-  Wrench wrench_R;  ///< What is ahead of it does to what is behind.
+  Wrench wrench_R;  ///< Wrench that the part ahead exerts on the part behind.
   double utilisation = 0;
 
   Vec3 normal_R() const { return strength.axes_R.col(0); }
 };
 
-/// The sections of one compound, whose bonds bear what its displacements say.
+/// Sections of one compound under the load that its displacements belong to.
 class Sections {
  public:
   Sections(const Compound& compound, const StressSystem& system,
            std::span<const Displacement> displacements, std::span<const Material> materials);
 
-  /// At which a bond flows; 0: it does not.
+  /// Returns the yield stress of a bond; 0 if it does not yield.
   double yield_Pa(std::uint32_t bond) const;
-  /// The cosine between a bond's normal, either way, and a direction.
-  double faces(std::uint32_t bond, const Vec3& direction_R) const {
+  /// Returns the absolute cosine between a bond's normal and a direction.
+  double normal_cosine(std::uint32_t bond, const Vec3& direction_R) const {
     return std::abs(system_.geometry()[bond].normal_R.dot(direction_R));
   }
-  /// The section about a bond that yields. There is none if it would be very large, or if a bond
-  /// is in it that neither yields nor is pressed.
+  /// Returns the section about a bond that yields; none if it has too many bonds, or a bond that
+  /// neither yields nor is under compression.
   ///
-  /// Where the bond lies in a plane of bonds that is the section. It may be a mitre: if the
-  /// convexes beside it are prisms it is seen the way they run. Elsewhere, as among Voronoi cells,
-  /// its bonds are those at a plane across the member, whose direction is a principal axis of the
-  /// cells around: of a few, that with the least of them.
+  /// If the bond lies in a plane of bonds, these are the section; where the convexes beside it are
+  /// prisms, as at a mitre, the section is seen along their axis. Otherwise, as among Voronoi
+  /// cells, the bonds are those at a plane across the member. Of several planes, normal to the
+  /// principal axes of the cells around, the one with least area is taken.
   Section at(std::uint32_t bond);
-  /// The section that these bonds are, seen along a direction; none if those that yield have no
-  /// area so.
-  Section of(std::vector<Crossing> crossings, const Vec3& normal_R) const;
-  /// Bonds visited so far.
+  /// Returns the section of given bonds, seen along `normal_R`; none if the projected area of the
+  /// bonds that yield is zero.
+  Section make_section(std::vector<Crossing> crossings, const Vec3& normal_R) const;
+  /// Returns the number of bonds visited so far.
   std::uint64_t work() const { return work_; }
 
  private:
   void index_bonds();
   std::span<const std::uint32_t> bonds_of(std::uint32_t convex) const;
   const Vec3& centroid(std::uint32_t convex) const;
-  std::uint32_t across(std::uint32_t bond, std::uint32_t convex) const;
+  std::uint32_t other_convex(std::uint32_t bond, std::uint32_t convex) const;
   bool is_pressed(std::uint32_t bond) const;
-  std::vector<Crossing> flood(std::uint32_t bond, const Vec3& normal_R);
-  Vec3 facing(std::span<const Crossing> crossings, double& area_m2) const;
+  std::vector<Crossing> find_crossings(std::uint32_t bond, const Vec3& normal_R);
+  Vec3 vector_area(std::span<const Crossing> crossings, double& area_m2) const;
   std::vector<Vec3> axes_around(std::uint32_t bond);
   SectionStrength strength(std::span<const Crossing> crossings, std::span<const double> areas_m2,
                            const Vec3& normal_R, const Vec3& bending_R) const;
@@ -83,9 +83,11 @@ class Sections {
   const StressSystem& system_;
   std::span<const Displacement> displacements_;
   std::span<const Material> materials_;
-  std::vector<std::uint32_t> first_, bonds_;  ///< Those of convex c: from first_[c] to the next.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> overlaps_;  ///< Convexes, both ways round.
-  std::vector<std::uint32_t> seen_bond_, seen_convex_;             ///< In which search.
+  /// The bonds of convex c: from first_[c] to the next.
+  std::vector<std::uint32_t> first_, bonds_;
+  /// Pairs of convexes, in both orders.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> overlaps_;
+  std::vector<std::uint32_t> seen_bond_, seen_convex_;  ///< Number of the search that visited each.
   std::uint32_t search_ = 0;
   std::uint64_t work_ = 0;
 };

@@ -1,5 +1,5 @@
-// Four numbers at a time, of which the first three are a vector and the last is zero: the only
-// place of this room with vector extensions. Every operation is IEEE and lane by lane.
+// Vectors of four numbers, of which the first three are a 3-vector and the last is zero. Only this
+// file of fracture/ uses vector extensions. All operations are IEEE and lane by lane.
 #pragma once
 
 #include "engine/base/types.h"
@@ -10,33 +10,33 @@ template <class Real>
 struct Lanes {
   typedef Real Simd4 __attribute__((vector_size(4 * sizeof(Real))));
 };
-/// Four of `Real`, float or double.
+/// Four numbers of type `Real`, float or double.
 template <class Real>
 using Simd4 = typename Lanes<Real>::Simd4;
 
-/// The same number four times.
+/// Returns four copies of a number.
 template <class Real>
 Simd4<Real> splat(Real x) {
   return Simd4<Real>{x, x, x, x};
 }
-/// A vector, its fourth lane zero.
+/// Returns a vector with a fourth lane of zero.
 template <class Real>
 Simd4<Real> simd4(const Vec3& v) {
   return Simd4<Real>{static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z()),
                      0};
 }
-/// The first three lanes.
+/// Returns the first three lanes.
 template <class Q>
 Vec3 vec3(Q q) {
   return {q[0], q[1], q[2]};
 }
-/// Of all lanes, from the first.
+/// Returns the sum of all lanes, from the first to the last.
 template <class Q>
 double sum(Q q) {
   return q[0] + q[1] + q[2] + q[3];
 }
 
-/// The first three lanes rotated by one, and by two; the fourth stays.
+/// Return the first three lanes rotated by one and by two; the fourth lane stays.
 template <class Q>
 Q yzx(Q q) {
   return __builtin_shufflevector(q, q, 1, 2, 0, 3);
@@ -45,13 +45,13 @@ template <class Q>
 Q zxy(Q q) {
   return __builtin_shufflevector(q, q, 2, 0, 1, 3);
 }
-/// The cross product of the first three lanes; the fourth is zero if both are.
+/// Returns the cross product of the first three lanes; the fourth is zero if it is in both.
 template <class Q>
 Q cross(Q a, Q b) {
   return yzx(Q(a * yzx(b) - yzx(a) * b));
 }
 
-/// A symmetric 3×3 matrix; its fourth lanes are the caller's.
+/// A symmetric 3×3 matrix; the fourth lanes are free for the caller.
 template <class Real>
 struct Symmetric {
   Simd4<Real> diagonal{};  ///< xx, yy, zz
@@ -68,7 +68,7 @@ struct Six {
   Simd4<Real> linear{}, angular{};
 };
 
-/// The sum of products of both parts.
+/// Returns the sum of the dot products of both parts.
 template <class Real>
 double dot(const Six<Real>& x, const Six<Real>& y) {
   return sum(Simd4<Real>(x.linear * y.linear + x.angular * y.angular));

@@ -10,7 +10,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Neighbours of every node and how strongly they hold it, as begin offsets and flat lists.
+/// Neighbours of every node and the stiffness to each, as begin offsets and flat lists.
 struct Couplings {
   std::vector<std::uint32_t> first, other;
   std::vector<double> strength;
@@ -38,28 +38,28 @@ struct Couplings {
   }
 };
 
-/// Groups of neighbouring nodes, each numbered by when it began.
+/// Groups of neighbouring nodes, numbered in the order of their first nodes.
 class GrowingGroups {
  public:
   GrowingGroups(const Couplings& couplings, std::size_t nodes)
-      : couplings_(couplings), group_(nodes, kFree), pull_(nodes, 0) {}
+      : couplings_(couplings), group_(nodes, kFree), links_to_group_(nodes, 0) {}
 
-  /// Every group grows by what its members hold strongest, to `size` nodes if it can.
+  /// Grows groups by the most strongly connected node, up to `size` nodes; returns their number.
   template <class IsThere>
   std::uint32_t grow(std::size_t size, const IsThere& is_there) {
     std::uint32_t groups = 0;
     for (std::uint32_t seed = 0; seed < group_.size(); ++seed) {
       if (!is_there(seed)) group_[seed] = 0;
       if (group_[seed] != kFree) continue;
-      rim_.clear();
+      boundary_.clear();
       add(seed, groups);
       std::size_t members = 1;
       for (; members < size; ++members) {
-        const auto best = strongest_of_rim();
+        const auto best = most_linked();
         if (best == kFree) break;
         add(best, groups);
       }
-      for (const std::uint32_t node : rim_) pull_[node] = 0;
+      for (const std::uint32_t node : boundary_) links_to_group_[node] = 0;
       if (members > 1 || !join_neighbour(seed)) ++groups;
     }
     return groups;
@@ -69,7 +69,7 @@ class GrowingGroups {
 
  private:
   static constexpr std::uint32_t kFree = 0xffffffff;
-  // A node is held weakly by what holds it less than this share of what holds it most.
+  // A spring below this share of a node's strongest spring is weak.
   static constexpr double kWeak = 0.25;
 
   void add(std::uint32_t node, std::uint32_t group) {
@@ -79,20 +79,21 @@ class GrowingGroups {
       if (group_[other] != kFree || couplings_.strength[k] < kWeak * couplings_.strongest[other]) {
         continue;
       }
-      if (pull_[other] == 0) rim_.push_back(other);
-      pull_[other] += 1;
+      if (links_to_group_[other] == 0) boundary_.push_back(other);
+      links_to_group_[other] += 1;
     }
   }
 
-  std::uint32_t strongest_of_rim() const {
+  std::uint32_t most_linked() const {
     std::uint32_t best = kFree;
-    for (const std::uint32_t node : rim_) {
-      if (group_[node] == kFree && (best == kFree || pull_[node] > pull_[best])) best = node;
+    for (const std::uint32_t node : boundary_) {
+      if (group_[node] == kFree && (best == kFree || links_to_group_[node] > links_to_group_[best]))
+        best = node;
     }
     return best;
   }
 
-  /// A node left alone goes to the group that holds it strongest.
+  /// Moves a single node to the group with the stiffest spring to it; returns false if it has none.
   bool join_neighbour(std::uint32_t node) {
     double most = 0;
     const std::uint32_t alone = group_[node];
@@ -107,11 +108,12 @@ class GrowingGroups {
 
   const Couplings& couplings_;
   std::vector<std::uint32_t> group_;
-  std::vector<std::uint32_t> rim_;  ///< Free nodes beside the group that grows.
-  std::vector<double> pull_;        ///< Of that group on each of them.
+  std::vector<std::uint32_t> boundary_;  ///< Ungrouped nodes beside the growing group.
+  std::vector<double>
+      links_to_group_;  ///< Per node: number of its strong springs to the growing group.
 };
 
-/// Springs between the same two nodes become one.
+/// Merges springs between the same two nodes into one.
 std::vector<Spring> merge(std::vector<Spring> springs) {
   std::sort(springs.begin(), springs.end(),
             [](const Spring& x, const Spring& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
@@ -162,7 +164,7 @@ SpringLevel<float> SpringGroups::coarsen(const SpringLevel<float>& fine,
   return coarse;
 }
 
-/// The spring as its groups see it; none if it is within one.
+/// Returns the spring between groups; none if both ends are in one group.
 std::optional<Spring> SpringGroups::between_groups(Spring spring) const {
   spring.a = spring.a == Spring::kWorld ? Spring::kWorld : group_[spring.a];
   spring.b = spring.b == Spring::kWorld ? Spring::kWorld : group_[spring.b];
@@ -171,16 +173,16 @@ std::optional<Spring> SpringGroups::between_groups(Spring spring) const {
   return spring;
 }
 
-/// Takes note of where the groups are.
+/// Computes the vectors from groups to their nodes.
 void SpringGroups::place_arms(const SpringLevel<float>& fine, const SpringLevel<float>& coarse) {
   arms_.resize(group_.size());
   for (std::size_t i = 0; i < group_.size(); ++i) {
-    const Vec3 way = fine.place(i) - coarse.place(group_[i]);
-    arms_[i] = rounded<float>(way, way.norm());
+    const Vec3 from_group = fine.place(i) - coarse.place(group_[i]);
+    arms_[i] = rounded<float>(from_group, from_group.norm());
   }
 }
 
-/// What an edit of the fine level does to the coarse one.
+/// Returns the edit of the coarse level that follows from an edit of the fine level.
 SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const SpringEdit& edit) {
   SpringEdit of_groups;
   of_groups.changes.assign(count_, SpringEdit::Change::kNone);
@@ -190,7 +192,7 @@ SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const Sp
     }
   };
   mark();
-  join_groups(edit);
+  assign_new_nodes(edit);
   mark();
   std::vector<Spring> between;
   fine.for_springs_near([&](std::uint32_t node) { return of_groups.is_at(group_[node]); },
@@ -202,28 +204,29 @@ SpringEdit SpringGroups::edit_of_groups(const SpringLevel<float>& fine, const Sp
   return of_groups;
 }
 
-/// What is new goes to the group that holds it strongest.
-void SpringGroups::join_groups(const SpringEdit& edit) {
-  std::vector<std::uint8_t> homeless(group_.size(), 0);
+/// Assigns new nodes to the group with the stiffest spring to them.
+void SpringGroups::assign_new_nodes(const SpringEdit& edit) {
+  std::vector<std::uint8_t> ungrouped(group_.size(), 0);
   std::size_t left = 0;
   for (std::uint32_t i = 0; i < group_.size(); ++i) {
-    homeless[i] = edit.changes[i] == SpringEdit::Change::kNew;
-    left += homeless[i];
+    ungrouped[i] = edit.changes[i] == SpringEdit::Change::kNew;
+    left += ungrouped[i];
   }
   while (left > 0) {
-    std::map<std::uint32_t, std::pair<double, std::uint32_t>> best;  // strength and group
+    std::map<std::uint32_t, std::pair<double, std::uint32_t>> best;  // Stiffness and group.
     for (const Spring& spring : edit.springs) {
       if (spring.a == Spring::kWorld || spring.b == Spring::kWorld) continue;
-      if (homeless[spring.a] == homeless[spring.b]) continue;
-      const std::uint32_t node = homeless[spring.a] ? spring.a : spring.b;
-      const std::uint32_t other = homeless[spring.a] ? spring.b : spring.a;
+      if (ungrouped[spring.a] == ungrouped[spring.b]) continue;
+      const std::uint32_t node = ungrouped[spring.a] ? spring.a : spring.b;
+      const std::uint32_t other = ungrouped[spring.a] ? spring.b : spring.a;
       auto& strongest = best[node];
       if (spring.stretch_N_m > strongest.first) strongest = {spring.stretch_N_m, group_[other]};
     }
-    if (best.empty()) return;  // they stay where what they stand for instead was
+    // Nodes without a neighbour keep the groups of their previous bodies.
+    if (best.empty()) return;
     for (const auto& [node, strongest] : best) {
       group_[node] = strongest.second;
-      homeless[node] = 0;
+      ungrouped[node] = 0;
       --left;
     }
   }

@@ -1,5 +1,5 @@
-// Which nodes of a level of springs move as one on the next coarser level: the way between the two
-// (unsmoothed aggregation).
+// Groups of nodes that are the nodes of the next coarser level, and the transfer between the two
+// levels (unsmoothed aggregation).
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,32 @@ namespace sunder::fracture {
 /// Groups of the nodes of one level, the fine one, which are the nodes of the coarse one.
 class SpringGroups {
  public:
-  /// Groups of about `size` nodes that hold each other strongly.
+  /// Makes groups of about `size` nodes with strong springs between them.
   SpringGroups(const SpringLevel<float>& fine, std::size_t size);
 
-  /// How many groups there are.
+  /// Returns the number of groups.
   std::size_t count() const { return count_; }
-  /// The coarse level: springs between groups.
+  /// Returns the coarse level, which has the springs between groups.
   SpringLevel<float> coarsen(const SpringLevel<float>& fine);
-  /// The same after an edit that has made the fine level what it is: groups that it does not reach
-  /// stay as they are, and what is new joins those beside it. `edit` becomes what it does to the
-  /// coarse level, which was `old_coarse`.
+  /// Returns the coarse level after an edit of the fine level. Groups outside the edit stay the
+  /// same, and new nodes join neighbouring groups. `edit` is replaced by the edit of the coarse
+  /// level, which was `old_coarse` before.
   SpringLevel<float> coarsen(const SpringLevel<float>& fine, const SpringLevel<float>& old_coarse,
                              SpringEdit& edit);
-  /// Forces on nodes as forces on groups.
+  /// Sums forces on nodes to forces on groups.
   void restrict_to(const Nodal<float>& forces, Nodal<float>& sums) const;
-  /// Adds `factor` times the groups' rigid motions to the nodes.
+  /// Adds `factor` times the rigid motions of groups to the nodes.
   void prolong(float factor, const Nodal<float>& motions, Nodal<float>& x) const;
 
  private:
   std::optional<Spring> between_groups(Spring spring) const;
   void place_arms(const SpringLevel<float>& fine, const SpringLevel<float>& coarse);
   SpringEdit edit_of_groups(const SpringLevel<float>& fine, const SpringEdit& edit);
-  void join_groups(const SpringEdit& edit);
+  void assign_new_nodes(const SpringEdit& edit);
 
   std::size_t count_ = 0;
   std::vector<std::uint32_t> group_;  ///< Per node of the fine level.
-  std::vector<Simd4<float>> arms_;    ///< Per node: from the place of its group.
+  std::vector<Simd4<float>> arms_;    ///< Per node: vector from the place of its group.
 };
 
 }  // namespace sunder::fracture

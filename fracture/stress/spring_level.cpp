@@ -11,7 +11,8 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kLeastRotation = 1e-9;  // of a block's eigenvalues, as part of their sum
+// Regularization of a block, over the sum of its eigenvalues.
+constexpr double kLeastRotation = 1e-9;
 
 }  // namespace
 
@@ -55,7 +56,7 @@ SpringLevel<Real>::SpringLevel(const SpringLevel& old, const SpringEdit& edit) :
   finish(std::move(runs), &edit);
 }
 
-/// Adds a spring to the runs that it reaches into.
+/// Adds a spring to the runs of its ends.
 template <class Real>
 void SpringLevel<Real>::put(const Spring& spring, std::vector<std::shared_ptr<Run>>& runs) const {
   const bool from_a = spring.a != Spring::kWorld, from_b = spring.b != Spring::kWorld;
@@ -65,8 +66,8 @@ void SpringLevel<Real>::put(const Spring& spring, std::vector<std::shared_ptr<Ru
   }
 }
 
-/// Puts runs in place whose springs are there: of their nodes, or those of an edit among them, what
-/// follows from the springs; then all their links.
+/// Completes runs whose springs are set: places and inverse blocks of their nodes, or only of nodes
+/// in the edit, and all their links.
 template <class Real>
 void SpringLevel<Real>::finish(std::vector<std::shared_ptr<Run>> runs, const SpringEdit* edit) {
   for_chunks(runs.size(), 1, [&](std::size_t r, std::size_t, std::size_t) {
@@ -114,8 +115,8 @@ template <class Real>
 typename SpringLevel<Real>::Link SpringLevel<Real>::link_of(const Spring& spring) const {
   const auto nodes = static_cast<std::uint32_t>(size());
   const auto arm = [&](std::uint32_t node) {
-    const Vec3 way = spring.place - places_[node];
-    return rounded<Real>(way, way.norm());
+    const Vec3 from_node = spring.place - places_[node];
+    return rounded<Real>(from_node, from_node.norm());
   };
   Link link;
   link.a = std::min(spring.a, nodes);
@@ -143,7 +144,7 @@ void SpringLevel<Real>::invert_blocks(const Run& run, const SpringEdit* edit) {
     if (edit && !edit->is_at(i)) continue;
     inverse_[i] = {};
     if (!(stretch[i - run.begin] > 0)) continue;
-    // Slivers rotate about their length almost freely.
+    // Rotation of slivers about their length is almost free.
     Mat3& block = rotation[i - run.begin];
     block.diagonal().array() += kLeastRotation * block.trace();
     inverse_[i] = rounded<Real>(Mat3(block.inverse()));

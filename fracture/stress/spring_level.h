@@ -1,10 +1,10 @@
 // One level of the stress solve: nodes with six degrees of freedom, joined by springs that resist
-// displacement alike in all directions, and rotation.
+// displacement equally in all directions, and rotation.
 //
-// Two facts keep a level small. Where the springs of a node have their centre, a force does not
-// rotate it: with its place there, the node's own block of the stiffness matrix is a number and a
-// 3×3 matrix. And springs side by side between two rigid things are exactly one spring at their
-// centre: so a coarser level, whose nodes are groups that move as one, is a level of the same kind.
+// Two facts keep a level small. With a node placed at the centre of its springs, forces do not
+// rotate it, so its diagonal block of the stiffness matrix is a number and a 3×3 matrix. And
+// parallel springs between two rigid bodies equal one spring at their centre, so a coarser level,
+// whose nodes are rigid groups, is a level of this kind.
 #pragma once
 
 #include <algorithm>
@@ -20,25 +20,24 @@ namespace sunder::fracture {
 struct Spring {
   static constexpr std::uint32_t kWorld = 0xffffffff;
   std::uint32_t a = kWorld, b = kWorld;
-  Vec3 place = Vec3::Zero();        ///< Where it acts.
-  double stretch_N_m = 0;           ///< The same in all directions.
+  Vec3 place = Vec3::Zero();        ///< Point of action.
+  double stretch_N_m = 0;           ///< Stiffness to displacement, equal in all directions.
   Mat3 rotation_Nm = Mat3::Zero();  ///< Stiffness to rotation, N·m/rad; symmetric.
 };
 
-/// Per node, and one more for the world, which is zero.
+/// Values per node, and one for the world, which is zero.
 template <class Real>
 using Nodal = std::vector<Six<Real>>;
 
-/// What an edit does to the nodes of a level, and the springs that nodes have then that it does
-/// anything to.
+/// Changes of the nodes of a level, and the springs of changed nodes after the edit.
 struct SpringEdit {
   enum class Change : std::uint8_t {
     kNone,
-    kSprings,  ///< All its springs go, or are among `springs`.
-    kNew,      ///< And it stands for something else than before.
+    kSprings,  ///< All its springs are removed, or are listed in `springs`.
+    kNew,      ///< Its springs change, and it stands for another body.
   };
-  std::vector<Change> changes;  ///< Per node; there may be more than before.
-  std::vector<Spring> springs;  ///< Each has an end that changes.
+  std::vector<Change> changes;  ///< Per node; the number of nodes may have grown.
+  std::vector<Spring> springs;  ///< Each has a changed node at one end.
 
   bool is_at(std::uint32_t node) const {
     return node != Spring::kWorld && changes[node] != Change::kNone;
@@ -46,16 +45,16 @@ struct SpringEdit {
   bool is_at(const Spring& spring) const { return is_at(spring.a) || is_at(spring.b); }
 };
 
-/// Nodes and springs, and their stiffness matrix K; `Real` is float or double.
+/// Nodes, springs and their stiffness matrix K; `Real` is float or double.
 template <class Real>
 class SpringLevel {
  public:
-  /// Nodes without a spring are at rest.
+  /// Nodes without a spring stay at rest.
   SpringLevel(std::size_t nodes, std::vector<Spring> springs);
-  /// Another level after an edit, at a cost that depends on what that changes: the rest is shared.
+  /// Copies `old` and applies an edit, at a cost that depends on the edit; the rest is shared.
   SpringLevel(const SpringLevel& old, const SpringEdit& edit);
 
-  /// Nodes.
+  /// Returns the number of nodes.
   std::size_t size() const { return places_.size(); }
   bool has_springs(std::uint32_t node) const { return inverse_[node].diagonal[3] > 0; }
   /// Calls `use` with each spring once.
@@ -63,45 +62,45 @@ class SpringLevel {
   void for_each_spring(const Use& use) const {
     for_springs_in(std::vector<std::uint8_t>(runs_.size(), 1), use);
   }
-  /// Calls `use` once with each spring at the nodes that `is_in`, and with others near them.
+  /// Calls `use` once with each spring at nodes with `is_in`, and with some springs nearby.
   template <class IsIn, class Use>
   void for_springs_near(const IsIn& is_in, const Use& use) const {
-    std::vector<std::uint8_t> looked_at(runs_.size(), 0);
+    std::vector<std::uint8_t> selected(runs_.size(), 0);
     for (std::uint32_t i = 0; i < size(); ++i) {
-      if (is_in(i)) looked_at[i / kRun] = 1;
+      if (is_in(i)) selected[i / kRun] = 1;
     }
-    for_springs_in(looked_at, use);
+    for_springs_in(selected, use);
   }
-  /// The centre of a node's springs: its displacement and torque are about there.
+  /// Returns the centre of a node's springs, the reference point of its displacement and torque.
   const Vec3& place(std::size_t node) const { return places_[node]; }
-  /// Of the level's size.
+  /// Returns a vector of zeros of the level's size.
   Nodal<Real> zero() const { return Nodal<Real>(size() + 1); }
 
-  /// y = K x
+  /// Sets y = K x.
   void multiply(const Nodal<Real>& x, Nodal<Real>& y) const;
-  /// y = f − K x
+  /// Sets y = f − K x.
   void residual(const Nodal<Real>& f, const Nodal<Real>& x, Nodal<Real>& y) const;
-  /// x = or += factor · D⁻¹ r, D the nodes' own blocks of K.
+  /// Sets x to factor · D⁻¹ r, or adds that to x; D has the diagonal blocks of K.
   void relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const;
 
  private:
-  /// A spring made ready to be multiplied. Its stretch is the fourth lane of rotation.diagonal.
+  /// A spring as apply() uses it. The fourth lane of rotation.diagonal is its stretch stiffness.
   struct Link {
-    std::uint32_t a = 0, b = 0;  ///< The world is the greatest number.
+    std::uint32_t a = 0, b = 0;  ///< The world has the greatest index.
     Simd4<Real> arm_a, arm_b;
     Symmetric<Real> rotation;
   };
-  /// Springs that reach into one run of nodes; those between two runs are in both.
+  /// Springs with an end in one run of nodes; springs between two runs are in both.
   struct Run {
     std::uint32_t begin = 0, end = 0;
     std::vector<Spring> springs;
-    std::vector<Link> links;            ///< Of the springs.
-    std::vector<std::uint32_t> beside;  ///< The runs that they reach into, this one too; ascending.
+    std::vector<Link> links;            ///< Per spring.
+    std::vector<std::uint32_t> beside;  ///< Runs with an end of these springs, including this one.
   };
 
-  static constexpr std::uint32_t kRun = 1024;  // nodes a thread takes at a time
+  static constexpr std::uint32_t kRun = 1024;  // Nodes per task of a thread.
 
-  /// Calls `use` with each spring of some runs once: in the first of them that it is in.
+  /// Calls `use` once with each spring of the given runs: in the first of them that has the spring.
   template <class Use>
   void for_springs_in(const std::vector<std::uint8_t>& runs, const Use& use) const {
     for (std::size_t r = 0; r < runs_.size(); ++r) {
@@ -122,7 +121,7 @@ class SpringLevel {
 
   std::vector<Vec3> places_;
   std::vector<std::shared_ptr<const Run>> runs_;
-  /// Of D's blocks for rotations; the fourth lane of diagonal is of that for displacements.
+  /// Inverse blocks of D for rotation; the fourth lane of diagonal is the inverse for displacement.
   std::vector<Symmetric<Real>> inverse_;
 };
 

@@ -1,4 +1,4 @@
-// Small pieces of arithmetic that the stress solve's parts share. Internal to fracture/stress.
+// Arithmetic shared by the parts of the stress solve. Internal to fracture/stress.
 #pragma once
 
 #include <limits>
@@ -7,8 +7,8 @@
 
 namespace sunder::fracture {
 
-/// As stored in `Real`, without what is rounding beside `size`: products of such numbers end up
-/// below what a processor multiplies fast.
+/// Converts to `Real` and sets coordinates to zero that are rounding errors relative to `size`:
+/// their products would be denormal numbers, which are slow.
 template <class Real>
 Simd4<Real> rounded(const Vec3& v, double size) {
   const double least = size * double{std::numeric_limits<Real>::epsilon()};
@@ -23,13 +23,12 @@ Symmetric<Real> rounded(const Mat3& m) {
   return result;
 }
 
-/// What a unit of stiffness or mass at `arm` adds to the tensor about the origin (parallel-axis
-/// theorem).
+/// Returns the inertia about the origin of a unit mass or stiffness at `arm` (parallel axes).
 inline Mat3 parallel_axis(const Vec3& arm) {
   return arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
 }
 
-/// m with m v = arm × v.
+/// Returns the matrix m with m v = arm × v.
 inline Mat3 cross_matrix(const Vec3& arm) {
   Mat3 m;
   m << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;

@@ -1,9 +1,9 @@
-// What a steady load breaks: bonds whose stress exceeds what their materials stand.
+// Bonds that break under a steady load: those whose stress exceeds the strength of their materials.
 //
-// Stress is solved for; the worst bonds of every overloaded region are cut, and it is solved for
-// again, until nothing is overloaded. Only a converged stress cuts, and nothing is kept of one
-// besides a start for the next: a load that a structure withstands once it withstands for ever.
-// Bonds that yield are not cut: where no others are overloaded, their sections flow (yielding.h).
+// The stress is solved for, the worst bonds of each overloaded region are cut, and so on until no
+// bond is overloaded. Only converged stresses cut bonds, and a solve keeps no state but the initial
+// guess of the next: a structure that withstands a load once withstands it forever. Bonds that
+// yield are not cut: where no others are overloaded, their sections flow (yielding.h).
 #pragma once
 
 #include <vector>
@@ -12,11 +12,10 @@
 
 namespace sunder::fracture {
 
-/// What Breaker::stress() answers: cuts the bonds that the load is too much for, and what comes
-/// off.
-StressAnswer break_by_stress(const Structure& structure, const LoadCase& load);
+/// Implements Breaker::stress(): cuts overloaded bonds and separates the pieces that come off.
+StressResult break_by_stress(const Structure& structure, const LoadCase& load);
 
-/// What Breaker::utilisation() answers, however much work it takes.
+/// Implements Breaker::utilisation(), without a limit of work.
 std::vector<float> utilisation_by_stress(const Structure& structure, const LoadCase& load);
 
 }  // namespace sunder::fracture

@@ -9,15 +9,15 @@
 namespace sunder::fracture {
 namespace {
 
-// A system is edited if so much of it stays; else it is made anew.
-constexpr double kStays = 0.5;
+// Least share of convexes that must be known for a system to be edited instead of made anew.
+constexpr double kLeastKnownShare = 0.5;
 
-auto place_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
+auto key_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
 
 constexpr std::uint32_t kNew = StressOrigin::kNew;
 
-/// Where the convexes and bonds of a compound, with these slots, were in what the memory is of; few
-/// are known if that was no earlier state of the same structure.
+/// Returns the indices of a compound's convexes and bonds in an older state; few are known if that
+/// is not a state of the same structure.
 StressOrigin origin_in(const KnownStress& old, const Compound& compound,
                        const std::vector<ConvexSlot>& slots) {
   StressOrigin origin;
@@ -34,21 +34,21 @@ StressOrigin origin_in(const KnownStress& old, const Compound& compound,
     bond.b = origin.convexes[bond.b];
     origin.bonds.push_back(kNew);
     if (bond.a == kNew || bond.b == kNew) continue;
-    while (next < old.bonds.size() && place_of(old.bonds[next]) < place_of(bond)) ++next;
-    if (next == old.bonds.size() || place_of(old.bonds[next]) != place_of(bond)) continue;
+    while (next < old.bonds.size() && key_of(old.bonds[next]) < key_of(bond)) ++next;
+    if (next == old.bonds.size() || key_of(old.bonds[next]) != key_of(bond)) continue;
     origin.bonds.back() = next;
   }
   return origin;
 }
 
-/// Makes what is known of a compound out of what was known of an earlier one.
-class Recollection {
+/// Makes the state of a compound from that of an earlier one.
+class MemoryUpdate {
  public:
-  Recollection(const Compound& compound, const std::vector<ConvexSlot>& slots,
+  MemoryUpdate(const Compound& compound, const std::vector<ConvexSlot>& slots,
                std::span<const Material> materials)
       : compound_(compound), slots_(slots), materials_(materials) {}
 
-  /// From `old`, if there is any; adds to `work` what that took.
+  /// Makes the state from `old`, which may be null; adds the cost to `work`.
   std::shared_ptr<KnownStress> run(const KnownStress* old, std::uint64_t& work) {
     known_->displacements.resize(compound_.convexes.size());
     if (old && edit_system(*old)) {
@@ -61,11 +61,12 @@ class Recollection {
   }
 
  private:
-  /// False if too little of the system is still there.
+  /// Returns false if too little of the old system is left.
   bool edit_system(const KnownStress& old) {
     const StressOrigin origin = origin_in(old, compound_, slots_);
     const auto known = std::ranges::count_if(origin.convexes, [](auto was) { return was != kNew; });
-    if (static_cast<double>(known) < kStays * static_cast<double>(old.slots.size())) return false;
+    if (static_cast<double>(known) < kLeastKnownShare * static_cast<double>(old.slots.size()))
+      return false;
     for (std::size_t c = 0; c < origin.convexes.size(); ++c) {
       if (origin.convexes[c] != kNew) {
         known_->displacements[c] = old.displacements[origin.convexes[c]];
@@ -100,8 +101,8 @@ class Recollection {
         compound_, std::move(geometry), materials_, StressSystem::spare_nodes(compound_));
   }
 
-  /// Per convex, kNew if it is not there. What came off is small beside what that is of: its own
-  /// convexes are sorted, not the old ones.
+  /// Returns the index of each convex in `old`, or kNew. Sorts the convexes of the compound, as
+  /// these are few if it came off a large structure.
   std::vector<std::uint32_t> numbers_in(const KnownStress& old) const {
     std::vector<std::pair<const Convex*, std::uint32_t>> sought;
     for (std::uint32_t c = 0; c < compound_.convexes.size(); ++c)
@@ -126,8 +127,8 @@ class Recollection {
     if (bond.a == kNew || bond.b == kNew || bond.a > bond.b) return nullptr;
     const auto at =
         std::lower_bound(old.bonds.begin(), old.bonds.end(), bond,
-                         [](const Bond& x, const Bond& y) { return place_of(x) < place_of(y); });
-    if (at == old.bonds.end() || place_of(*at) != place_of(bond)) return nullptr;
+                         [](const Bond& x, const Bond& y) { return key_of(x) < key_of(y); });
+    if (at == old.bonds.end() || key_of(*at) != key_of(bond)) return nullptr;
     return &old.system->geometry()[static_cast<std::size_t>(at - old.bonds.begin())];
   }
 
@@ -139,12 +140,12 @@ class Recollection {
 
 }  // namespace
 
-std::shared_ptr<KnownStress> recall(const StressMemory* memory, const Compound& compound,
+std::shared_ptr<KnownStress> recall(const StressCache* memory, const Compound& compound,
                                     const std::vector<ConvexSlot>& slots,
                                     std::span<const Material> materials, std::uint64_t& work) {
   const auto* old = dynamic_cast<const KnownStress*>(memory);
   if (old && old->is_of(compound)) return std::make_shared<KnownStress>(*old);
-  return Recollection(compound, slots, materials).run(old, work);
+  return MemoryUpdate(compound, slots, materials).run(old, work);
 }
 
 }  // namespace sunder::fracture

@@ -9,13 +9,14 @@
 namespace sunder::fracture {
 namespace {
 
-// A bond is no stiffer than one between convexes this share of its width apart.
-constexpr double kLeastDistance = 0.05;
-constexpr double kUnbalanced = 1e-11;  // of all forces: rounding
-// Bonds of one plane within so many cells make one section.
+// Least distance of two convexes, over the bond's width, in the stiffness of the bond.
+constexpr double kMinDistance = 0.05;
+// Rounding error of balanced forces, over the sum of all forces.
+constexpr double kForceRounding = 1e-11;
+// Bonds of one plane within this number of cells form one section.
 constexpr double kWindowCells = 2;
 
-/// Edge of the largest cell about each convex, what holds them not counted.
+/// Returns, per convex, the edge of the largest free cell among it and its neighbours.
 std::vector<double> cell_sizes(const Compound& compound) {
   std::vector<double> own, largest;
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
@@ -95,29 +96,29 @@ StressSystem::ElasticBond StressSystem::make_bond(const Compound& compound, std:
   ElasticBond elastic;
   elastic.plane = compound.convexes[bond.a]->polyhedron.faces[bond.face_a].id.value >> 1;
   if (!(g.area_m2 > 0)) return elastic;
-  // What each convex gives, from its centroid to the bond.
-  double gives_m_Pa = 0;
+  // Compliance of each convex from its centroid to the bond.
+  double compliance_m_Pa = 0;
   for (const std::uint32_t c : {bond.a, bond.b}) {
     if (compound.anchored[c]) continue;
     const double distance_m = std::max(std::abs(g.normal_R.dot(g.centroid_R - masses_.centroid(c))),
-                                       kLeastDistance * std::sqrt(g.area_m2));
-    gives_m_Pa += distance_m / materials[compound.convexes[c]->material.value].youngs_Pa;
+                                       kMinDistance * std::sqrt(g.area_m2));
+    compliance_m_Pa += distance_m / materials[compound.convexes[c]->material.value].youngs_Pa;
   }
-  if (gives_m_Pa > 0) elastic.stiffness_Pa_m = 1 / gives_m_Pa;
+  if (compliance_m_Pa > 0) elastic.stiffness_Pa_m = 1 / compliance_m_Pa;
   return elastic;
 }
 
 void StressSystem::make_bonds(const Compound& compound, std::span<const Material> materials,
                               const Edited* edited) {
   const std::vector<double> cell_m = cell_sizes(compound);
-  std::vector<std::uint32_t> fresh,
+  std::vector<std::uint32_t> added,
       new_of_old(edited ? edited->old.bonds_.size() : 0, StressOrigin::kNew);
   for (std::uint32_t i = 0; i < compound.bonds.size(); ++i) {
     const Bond& bond = compound.bonds[i];
     const std::uint32_t was = edited ? edited->origin.bonds[i] : StressOrigin::kNew;
     if (was == StressOrigin::kNew) {
       bonds_.push_back(make_bond(compound, i, materials));
-      fresh.push_back(i);
+      added.push_back(i);
     } else {
       bonds_.push_back(edited->old.bonds_[was]);
       new_of_old[was] = i;
@@ -130,16 +131,16 @@ void StressSystem::make_bonds(const Compound& compound, std::span<const Material
   const auto by_plane = [&](std::uint32_t x, std::uint32_t y) {
     return std::tie(bonds_[x].plane, x) < std::tie(bonds_[y].plane, y);
   };
-  std::sort(fresh.begin(), fresh.end(), by_plane);
-  std::vector<std::uint32_t> kept;  // in order still, as numbers keep theirs
+  std::sort(added.begin(), added.end(), by_plane);
+  std::vector<std::uint32_t> kept;  // Already in order, as the order of bonds does not change.
   if (edited) kept = edited->old.by_plane_;
   for (std::uint32_t& bond : kept) bond = new_of_old[bond];
   std::erase(kept, StressOrigin::kNew);
-  std::merge(kept.begin(), kept.end(), fresh.begin(), fresh.end(), std::back_inserter(by_plane_),
+  std::merge(kept.begin(), kept.end(), added.begin(), added.end(), std::back_inserter(by_plane_),
              by_plane);
 }
 
-/// The spring of an overlap, of its convexes `of[0]` and `of[i]`.
+/// Returns the spring of an overlap between its convexes `of[0]` and `of[i]`.
 Spring StressSystem::spring_of(const Ghost& ghost, std::size_t i,
                                std::span<const Material> materials) const {
   const Convex& common = *ghost.convex;
@@ -172,7 +173,7 @@ Wrench StressSystem::overlap_wrench(const Ghost& ghost, std::span<const Material
               (displacements[ghost.of[1]].rotation_R - displacements[ghost.of[0]].rotation_R)};
 }
 
-/// Convexes keep their nodes; new ones take those that are free. False if there are too few.
+/// Keeps the nodes of old convexes, gives new ones free nodes; returns false if those are too few.
 bool StressSystem::number_nodes(const Edited& edited, SpringEdit& edit) {
   const std::vector<std::uint8_t>& fixed = masses_.fixed();
   nodes_ = edited.old.nodes_;
@@ -199,7 +200,7 @@ bool StressSystem::number_nodes(const Edited& edited, SpringEdit& edit) {
   return true;
 }
 
-/// Marks the nodes at the ends of bonds that came or went, or lead to another node than before.
+/// Marks the nodes of bonds that were added, were removed or now connect other nodes.
 void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
   const auto mark = [&](std::uint32_t convex) {
     const std::uint32_t node = node_of_convex_[convex];
@@ -234,14 +235,14 @@ void StressSystem::mark_changes(const Edited& edited, SpringEdit& edit) const {
 SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                                 double tolerance, int most_iterations,
                                 std::vector<Displacement>& displacements, const Vec3& spin_R,
-                                Nodal<double>* way) const {
+                                Nodal<double>* last_direction) const {
   displacements.resize(masses_.size());
   if (!multigrid_) return {0, 0, 0, true};
   std::vector<Vec3> forces_N, torques_Nm;
   masses_.balance(loads, gravity_R, spin_R, forces_N, torques_Nm);
   const SpringLevel<double>& level = multigrid_->springs();
   Nodal<double> f = level.zero(), x = level.zero();
-  // Nodes stand where their springs have their centre, which is not the centroid.
+  // A node is at the centre of its springs, which is not the centroid of its convex.
   for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     if (node == Spring::kWorld) continue;
@@ -250,11 +251,11 @@ SolveResult StressSystem::solve(std::span<const ConvexLoad> loads, const Vec3& g
     const Displacement& d = displacements[c];
     x[node] = {simd4<double>(d.shift_R - d.rotation_R.cross(arm)), simd4<double>(d.rotation_R)};
   }
-  // What falls freely has forces that cancel but for rounding.
-  const double nothing_N = kUnbalanced * masses_.applied_N(loads, gravity_R, spin_R);
+  // The forces on islands in free fall cancel up to rounding.
+  const double rounding_N = kForceRounding * masses_.applied_N(loads, gravity_R, spin_R);
   Nodal<double> none;
-  const SolveResult result =
-      multigrid_->solve(f, tolerance, nothing_N, most_iterations, x, way ? *way : none);
+  const SolveResult result = multigrid_->solve(f, tolerance, rounding_N, most_iterations, x,
+                                               last_direction ? *last_direction : none);
   for (std::size_t c = 0; c < masses_.size(); ++c) {
     const std::uint32_t node = node_of_convex_[c];
     displacements[c] = {};
@@ -314,8 +315,8 @@ BondStress StressSystem::bound(std::uint32_t bond,
           f.shear_Pa.norm() + std::abs(f.twist_Pa_m) * reach};
 }
 
-/// The bond's field with the tension that fits the section's best: of all that is linear in the
-/// place the one of least ∫ (fit − tension)² dA over the bonds beside this one.
+/// Returns the bond's field with the linear tension of least ∫ (fit − tension)² dA over its
+/// section.
 StressSystem::Field StressSystem::section_field(std::uint32_t bond,
                                                 std::span<const Displacement> displacements) const {
   Field own = field(bond, displacements);
@@ -324,7 +325,7 @@ StressSystem::Field StressSystem::section_field(std::uint32_t bond,
   const auto [begin, end] =
       std::equal_range(by_plane_.begin(), by_plane_.end(), bond,
                        [&](auto x, auto y) { return bonds_[x].plane < bonds_[y].plane; });
-  // About the bond's centroid, in an orthonormal basis of the plane.
+  // Coordinates about the bond's centroid, in an orthonormal basis of the plane.
   const Vec3 u =
       g.normal_R.cross(std::abs(g.normal_R.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ()).normalized();
   const Vec3 v = g.normal_R.cross(u);

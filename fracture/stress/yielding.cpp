@@ -14,51 +14,54 @@
 namespace sunder::fracture {
 namespace {
 
-// A fibre flows before its section does, or nearly so: bent two ways at once, or sheared besides,
-// a section bears a little more than is said of it.
-constexpr double kFibre = 0.9;
-// Sections that are this far from their limit may have to flow with those that are over it.
-constexpr double kSpare = 0.5;
-constexpr double kNearly = 0.97;      // as bad as the worst
-constexpr double kSameWay = 0.99;     // cosine of normals
-constexpr double kSameSection = 0.5;  // a bond is judged by its section if it faces within 60°
-constexpr double kGauge = 5.65;       // times √A: over which elongation is measured (ISO 6892-1)
+// Fibre utilisation above which a section is examined: fibres yield before the section does, except
+// that a section under biaxial bending or shear bears slightly more than computed.
+constexpr double kLeastFibreUtilisation = 0.9;
+// Sections above this utilisation may have to flow with overloaded ones.
+constexpr double kLeastUtilisation = 0.5;
+// Share of the greatest utilisation above which sections are alike.
+constexpr double kSimilarUtilisation = 0.97;
+constexpr double kSameDirection = 0.99;  // Cosine of normals.
+// A bond within 60° of a section's normal needs no section of its own (cosine).
+constexpr double kCoveredBySection = 0.5;
+constexpr double kGauge = 5.65;  // Gauge length over √A, for elongation (ISO 6892-1).
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
 Yielding::Yielding(const Compound& compound, const StressSystem& system,
                    std::span<const Displacement> displacements, std::span<const Material> materials,
-                   std::span<const std::uint8_t> hinged, std::vector<double> parts)
+                   std::span<const std::uint8_t> hinged, std::vector<double> utilisations)
     : compound_(compound),
       materials_(materials),
       hinged_(hinged),
       sections_(compound, system, displacements, materials),
-      fibres_(std::move(parts)),
-      parts_(fibres_),
-      looked_at_(fibres_.size(), 0) {
-  look(kFibre);
+      fibre_utilisations_(std::move(utilisations)),
+      utilisations_(fibre_utilisations_),
+      searched_(fibre_utilisations_.size(), 0) {
+  find_sections(kLeastFibreUtilisation);
 }
 
-/// Finds the sections of bonds whose fibres are worse than that, the worst first; those that lie in
-/// one already are not asked again.
-void Yielding::look(double least) {
+/// Finds the sections of bonds whose fibre utilisation exceeds `least`, worst first; bonds in a
+/// section found before are skipped.
+void Yielding::find_sections(double least) {
   std::vector<std::uint32_t> bonds;
-  for (std::uint32_t i = 0; i < fibres_.size(); ++i)
-    if (fibres_[i] > least && !looked_at_[i] && yields(i)) bonds.push_back(i);
-  for (const std::uint32_t i : bonds) parts_[i] = 0;
-  std::ranges::stable_sort(bonds, std::ranges::greater{}, [&](auto i) { return fibres_[i]; });
+  for (std::uint32_t i = 0; i < fibre_utilisations_.size(); ++i)
+    if (fibre_utilisations_[i] > least && !searched_[i] && yields(i)) bonds.push_back(i);
+  for (const std::uint32_t i : bonds) utilisations_[i] = 0;
+  std::ranges::stable_sort(bonds, std::ranges::greater{},
+                           [&](auto i) { return fibre_utilisations_[i]; });
   for (const std::uint32_t i : bonds) {
-    if (looked_at_[i]) continue;
-    looked_at_[i] = 1;
+    if (searched_[i]) continue;
+    searched_[i] = 1;
     Section section = sections_.at(i);
     if (!is_usable(section)) continue;
     for (const Crossing& crossing : section.crossings) {
-      if (fibres_[crossing.bond] <= least) continue;
-      double& worst = parts_[crossing.bond];
+      if (fibre_utilisations_[crossing.bond] <= least) continue;
+      double& worst = utilisations_[crossing.bond];
       worst = std::max(worst, section.utilisation);
-      if (sections_.faces(crossing.bond, section.normal_R()) > kSameSection)
-        looked_at_[crossing.bond] = 1;
+      if (sections_.normal_cosine(crossing.bond, section.normal_R()) > kCoveredBySection)
+        searched_[crossing.bond] = 1;
     }
     found_.push_back(std::move(section));
   }
@@ -81,7 +84,7 @@ std::uint32_t Yielding::ahead(const Crossing& crossing) const {
   return crossing.forward ? bond.b : bond.a;
 }
 
-/// Groups of sections that share convexes, from one to the next; all in the given order.
+/// Returns groups of sections that are connected by common convexes; all in the given order.
 std::vector<std::vector<std::uint32_t>> Yielding::connected(
     std::span<const std::uint32_t> sections) const {
   DisjointSets sets(sections.size());
@@ -101,10 +104,10 @@ std::vector<std::vector<std::uint32_t>> Yielding::connected(
   return all;
 }
 
-/// Of each overloaded region the worst section. Where axial force decides many of one member are
-/// alike: if it is pulled the middle one of these, and if it is pressed the first and the last as
-/// well, as a column that buckles needs three.
-std::vector<std::uint32_t> Yielding::decisive(double least) const {
+/// Returns the worst section of each overloaded region. Where axial force governs, many sections of
+/// a member are alike: the middle one of these is returned, and under compression the first and the
+/// last as well, as a column that buckles needs three hinges.
+std::vector<std::uint32_t> Yielding::decisive_sections(double least) const {
   std::vector<std::uint32_t> over, result;
   for (std::uint32_t s = 0; s < found_.size(); ++s)
     if (found_[s].utilisation > least) over.push_back(s);
@@ -112,7 +115,7 @@ std::vector<std::uint32_t> Yielding::decisive(double least) const {
     const std::uint32_t worst = *std::ranges::max_element(
         region, {}, [&](std::uint32_t s) { return found_[s].utilisation; });
     const Section& deciding = found_[worst];
-    const double axial = in_parts(deciding.strength, deciding.wrench_R).axial;
+    const double axial = relative_load(deciding.strength, deciding.wrench_R).axial;
     if (axial * axial <= 0.5) {
       result.push_back(worst);
       continue;
@@ -120,8 +123,8 @@ std::vector<std::uint32_t> Yielding::decisive(double least) const {
     const Vec3 normal_R = deciding.normal_R();
     std::vector<std::uint32_t> alike;
     for (const std::uint32_t s : region)
-      if (found_[s].utilisation >= kNearly * deciding.utilisation &&
-          std::abs(found_[s].normal_R().dot(normal_R)) > kSameWay)
+      if (found_[s].utilisation >= kSimilarUtilisation * deciding.utilisation &&
+          std::abs(found_[s].normal_R().dot(normal_R)) > kSameDirection)
         alike.push_back(s);
     for (std::vector<std::uint32_t>& member : connected(alike)) {
       if (std::ranges::find(member, worst) == member.end()) continue;
@@ -134,13 +137,13 @@ std::vector<std::uint32_t> Yielding::decisive(double least) const {
   return result;
 }
 
-/// Unless a section that was chosen before has one of its convexes.
+/// Chooses a section unless one chosen before shares a convex with it.
 void Yielding::choose(std::uint32_t section) {
   const std::vector<Crossing>& crossings = found_[section].crossings;
   for (const Crossing& crossing : crossings)
-    if (taken_[behind(crossing)] || taken_[ahead(crossing)]) return;
+    if (is_taken_[behind(crossing)] || is_taken_[ahead(crossing)]) return;
   for (const Crossing& crossing : crossings) {
-    taken_[behind(crossing)] = taken_[ahead(crossing)] = 1;
+    is_taken_[behind(crossing)] = is_taken_[ahead(crossing)] = 1;
     place_[crossing.bond] = static_cast<std::uint32_t>(chosen_.size());
   }
   for (const std::uint32_t bond : found_[section].pressed)
@@ -148,7 +151,7 @@ void Yielding::choose(std::uint32_t section) {
   chosen_.push_back(section);
 }
 
-/// Without the bonds of the first `chosen` sections; `by_world`: what is anchored is one.
+/// Returns the islands without the first `chosen` sections; `by_world` joins anchored convexes.
 std::vector<std::uint32_t> Yielding::islands(std::size_t chosen, bool by_world) {
   std::vector<Bond> links;
   for (std::size_t i = 0; i < compound_.bonds.size(); ++i)
@@ -165,7 +168,7 @@ std::vector<std::uint32_t> Yielding::islands(std::size_t chosen, bool by_world) 
   return find_islands(compound_.convexes.size(), links);
 }
 
-bool Yielding::comes_loose(std::size_t chosen) {
+bool Yielding::separates_a_part(std::size_t chosen) {
   const std::vector<std::uint32_t> island = islands(chosen, true);
   for (std::size_t i = 0; i < compound_.bonds.size(); ++i) {
     const Bond& bond = compound_.bonds[i];
@@ -175,35 +178,35 @@ bool Yielding::comes_loose(std::size_t chosen) {
 }
 
 Flow Yielding::flow(double least) {
-  taken_.assign(compound_.convexes.size(), 0);
+  is_taken_.assign(compound_.convexes.size(), 0);
   place_.assign(compound_.bonds.size(), kNone);
-  for (const std::uint32_t section : decisive(least)) choose(section);
+  for (const std::uint32_t section : decisive_sections(least)) choose(section);
   std::size_t few = chosen_.size();
   if (few == 0) return {};
-  if (comes_loose(few)) return part(few);
-  look(kSpare * kFibre);
+  if (separates_a_part(few)) return make_flow(few);
+  find_sections(kLeastUtilisation * kLeastFibreUtilisation);
   std::vector<std::uint32_t> rank(found_.size());
   std::iota(rank.begin(), rank.end(), 0u);
-  std::erase_if(rank, [&](std::uint32_t s) { return found_[s].utilisation < kSpare; });
+  std::erase_if(rank, [&](std::uint32_t s) { return found_[s].utilisation < kLeastUtilisation; });
   std::ranges::stable_sort(rank, std::ranges::greater{},
                            [&](std::uint32_t s) { return found_[s].utilisation; });
   for (const std::uint32_t section : rank) choose(section);
   std::size_t many = chosen_.size();
-  if (!comes_loose(many)) return {};
+  if (!separates_a_part(many)) return {};
   while (many - few > 1) {
     const std::size_t middle = (few + many) / 2;
-    (comes_loose(middle) ? many : few) = middle;
+    (separates_a_part(middle) ? many : few) = middle;
   }
-  return part(many);
+  return make_flow(many);
 }
 
-void Yielding::put_back(std::span<const Crossing> crossings) {
+void Yielding::release(std::span<const Crossing> crossings) {
   for (const Crossing& crossing : crossings) place_[crossing.bond] = kNone;
 }
 
-/// Gives back the bonds that part nothing from anything. A section between several pieces is as
-/// many hinges; bonds that would bear nothing alone are given back too.
-Flow Yielding::part(std::size_t chosen) {
+/// Returns the flow of the first `chosen` sections, without bonds that separate nothing or would
+/// bear nothing alone. A section between several pieces becomes several hinges.
+Flow Yielding::make_flow(std::size_t chosen) {
   Flow flow;
   for (bool again = true; again;) {
     again = false;
@@ -223,9 +226,9 @@ Flow Yielding::part(std::size_t chosen) {
         flow.bonds.push_back(crossing.bond);
       }
       for (const auto& [pieces, crossings] : between) {
-        const Section part = sections_.of(crossings, section.normal_R());
+        const Section part = sections_.make_section(crossings, section.normal_R());
         if (part.crossings.empty()) {
-          put_back(crossings);
+          release(crossings);
           again = true;
         } else {
           flow.hinges.push_back(hinge(part));
@@ -253,7 +256,7 @@ PlasticHinge Yielding::hinge(const Section& section) const {
     }
     for (const std::uint32_t c : {bond.a, bond.b}) {
       const Material& material = materials_[compound_.convexes[c]->material.value];
-      if (!material.yields()) continue;  // nothing breaks it
+      if (!material.yields()) continue;  // The material has no strength limit.
       if (!weakest || material.yield_Pa < weakest->yield_Pa) weakest = &material;
     }
     hinge.bonds.push_back(

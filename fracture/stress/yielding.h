@@ -1,5 +1,5 @@
-// What flows under a load: the sections of bonds that yield, and as many of those that the load
-// overloads as it takes for a part of the compound to come loose.
+// Plastic flow under a load: the sections of bonds that yield, and the overloaded ones that must
+// flow together for a part of the compound to come loose.
 //
 // Read first: Yielding::flow().
 #pragma once
@@ -13,42 +13,44 @@
 
 namespace sunder::fracture {
 
-/// Sections that part a compound, and hold its parts together as hinges.
+/// Sections that separate a compound and hold its parts together as hinges.
 struct Flow {
-  std::vector<PlasticHinge> hinges;   ///< Their bonds by convexes; their pieces are not known yet.
-  std::vector<std::uint32_t> bonds;   ///< Of the compound, that went into them; ascending.
-  std::vector<std::uint32_t> cracks;  ///< Bonds beside these that were pressed: likewise.
+  std::vector<PlasticHinge> hinges;  ///< Bonds by convexes; pieces are not set yet.
+  std::vector<std::uint32_t> bonds;  ///< Bonds of the compound that became hinges; ascending.
+  /// Bonds of these sections that were under compression and crack; ascending.
+  std::vector<std::uint32_t> cracks;
 };
 
-/// The judgement of one compound under one load.
+/// Plastic analysis of one compound under one load.
 class Yielding {
  public:
-  /// `parts` has the stress on each bond in parts of its limit: of one that yields, that of its
-  /// worst fibre, von Mises'. Where `hinged`, per convex, a hinge is already: no section is there.
+  /// `utilisations` is the utilisation of each bond: stress over strength, and for bonds that yield
+  /// the von Mises stress of the worst fibre over the yield stress. `hinged` is nonzero for
+  /// convexes beside a hinge, where no further section is made.
   Yielding(const Compound& compound, const StressSystem& system,
            std::span<const Displacement> displacements, std::span<const Material> materials,
-           std::span<const std::uint8_t> hinged, std::vector<double> parts);
+           std::span<const std::uint8_t> hinged, std::vector<double> utilisations);
 
   bool yields(std::uint32_t bond) const { return sections_.yield_Pa(bond) > 0; }
-  /// The same, but of bonds whose fibres yield that of their worst section.
-  const std::vector<double>& parts() const { return parts_; }
-  /// What gives way where some section bears more than `least`: of each region that is overloaded
-  /// its worst, and where these let nothing come loose the next worst anywhere, down to half of
-  /// what they bear. Nothing if even these do not: then it stands.
+  /// Returns the utilisation per bond; where its fibres yield, that of its worst section.
+  const std::vector<double>& utilisations() const { return utilisations_; }
+  /// Returns the sections that flow where some utilisation exceeds `least`: the worst of each
+  /// overloaded region, and if these release no part, the next worst anywhere, down to half
+  /// utilisation. Returns none if even these release no part: the structure stands.
   Flow flow(double least);
-  /// Visits of bonds.
+  /// Returns the number of bonds visited.
   std::uint64_t work() const { return work_ + sections_.work(); }
 
  private:
-  void look(double least);
+  void find_sections(double least);
   bool is_usable(const Section& section) const;
   std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t> sections) const;
-  std::vector<std::uint32_t> decisive(double least) const;
+  std::vector<std::uint32_t> decisive_sections(double least) const;
   void choose(std::uint32_t section);
   std::vector<std::uint32_t> islands(std::size_t chosen, bool by_world);
-  bool comes_loose(std::size_t chosen);
-  void put_back(std::span<const Crossing> crossings);
-  Flow part(std::size_t chosen);
+  bool separates_a_part(std::size_t chosen);
+  void release(std::span<const Crossing> crossings);
+  Flow make_flow(std::size_t chosen);
   PlasticHinge hinge(const Section& section) const;
   std::uint32_t behind(const Crossing& crossing) const;
   std::uint32_t ahead(const Crossing& crossing) const;
@@ -57,12 +59,12 @@ class Yielding {
   std::span<const Material> materials_;
   std::span<const std::uint8_t> hinged_;
   Sections sections_;
-  std::vector<double> fibres_, parts_;  ///< Per bond.
-  std::vector<std::uint8_t> looked_at_;
+  std::vector<double> fibre_utilisations_, utilisations_;  ///< Per bond.
+  std::vector<std::uint8_t> searched_;
   std::vector<Section> found_;
-  std::vector<std::uint32_t> chosen_;  ///< Of those found, in order; none shares a convex.
-  std::vector<std::uint8_t> taken_;    ///< Per convex: whether it is one of theirs.
-  std::vector<std::uint32_t> place_;   ///< Per bond: where in `chosen_` its section is, or kNone.
+  std::vector<std::uint32_t> chosen_;   ///< Indices in `found_`, in order; no two share a convex.
+  std::vector<std::uint8_t> is_taken_;  ///< Per convex: nonzero if a chosen section has it.
+  std::vector<std::uint32_t> place_;    ///< Per bond: index in `chosen_` of its section, or kNone.
   std::uint64_t work_ = 0;
 };
 

@@ -13,13 +13,14 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kLeastShare = 1e-6;  // of a piece: smaller islands are not cut off
-/// A cut that takes less of the slack than this is not worth much by itself; where the hull is also
-/// looser than that, it is worth looking one cut further.
+// Least volume of an island that is cut off, over that of the piece.
+constexpr double kLeastShare = 1e-6;
+/// If a cut removes less than kLittleGain of the slack, and the slack exceeds kLoose of the solid,
+/// the search looks one cut further.
 constexpr double kLittleGain = 0.25, kLoose = 0.1;
-constexpr std::size_t kLookedAt = 6;  // cuts, one cut further
+constexpr std::size_t kFurtherCuts = 6;  // Number of cuts compared in that search.
 
-/// Appends the islands on the inner side of a plane; false if there is nothing, or a sliver.
+/// Appends the islands on the inner side of a plane; returns false if there is none, or a sliver.
 bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double least_m3,
               std::vector<VacdPiece>& sides) {
   const double tolerance = region_tolerance(bounds(piece.region));
@@ -37,7 +38,7 @@ bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double lea
   return true;
 }
 
-/// The parts by a plane, or one a little aside if that leaves slivers; empty if all do.
+/// Returns the parts by a plane, slightly shifted if that avoids slivers; none if all shifts fail.
 std::vector<Branch> parts_by(const Branch& branch, const Plane& plane, PlaneId id) {
   const double size = bounds(branch.piece.mesh).extent().maxCoeff();
   const double least_m3 = kLeastShare * branch.solid_m3;
@@ -55,7 +56,7 @@ std::vector<Branch> parts_by(const Branch& branch, const Plane& plane, PlaneId i
   return parts;
 }
 
-/// The volume of the parts' hulls once each is cut again.
+/// Returns the total hull volume of the parts after each is cut once more.
 double volume_one_further(const std::vector<Branch>& parts) {
   if (parts.empty()) return std::numeric_limits<double>::infinity();
   double sum = 0;
@@ -66,11 +67,11 @@ double volume_one_further(const std::vector<Branch>& parts) {
   return sum;
 }
 
-/// The parts that are smallest one cut further, of those by `best` and by some cuts through the
-/// middle.
-std::vector<Branch> look_further(const Branch& branch, const Plane& best, PlaneId id) {
+/// Returns the parts with the least hull volume after one more cut, among those by `best` and by
+/// several cuts through the middle.
+std::vector<Branch> search_one_cut_further(const Branch& branch, const Plane& best, PlaneId id) {
   std::vector<Cut> cuts = middle_cuts(branch.piece.mesh, branch.outline);
-  cuts.resize(std::min(cuts.size(), kLookedAt));
+  cuts.resize(std::min(cuts.size(), kFurtherCuts));
   cuts.push_back({best, 0});
   std::vector<std::vector<Branch>> parts(cuts.size());
   std::vector<double> volume(cuts.size());
@@ -98,7 +99,7 @@ std::vector<Branch> cut_branch(const Branch& branch, PlaneId id) {
   if (!cut) return {};
   const bool stuck = branch.hull_m3 - cut->hull_volume_m3 < kLittleGain * branch.slack();
   if (stuck && branch.slack() > kLoose * branch.solid_m3) {
-    return look_further(branch, cut->plane, id);
+    return search_one_cut_further(branch, cut->plane, id);
   }
   return parts_by(branch, cut->plane, id);
 }

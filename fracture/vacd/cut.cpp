@@ -16,42 +16,43 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr std::size_t kAround = 16;  // points of a slice's outline
-constexpr std::size_t kSlices = 9;   // along each direction at first
+constexpr std::size_t kOutlinePoints = 16;  // Points of a slice's outline.
+constexpr std::size_t kSlices = 9;          // Per direction in the first search.
 constexpr std::size_t kNearSlices = 8;
 constexpr int kTilts = 3;
 constexpr double kFirstTilt = 0.25;
-/// Of two cuts about as tight the more even one, by this share of the larger hull.
+/// CompoundMass of the larger hull in the cost of a cut, which selects the more even of two tight
+/// cuts.
 constexpr double kEvenness = 2e-3;
-constexpr double kMiddle = 0.2;  // that share, to be about even
-/// What is sliced has fewer than twice as many contours: outlines of larger meshes hardly change if
-/// only every second contour is looked at, or every third, and so on.
+constexpr double kMiddleEvenness = 0.2;  // CompoundMass for cuts with sides of about equal size.
+/// Meshes with at least twice as many contours are sliced by every second contour, every third, and
+/// so on: the outlines hardly change.
 constexpr std::size_t kContours = 4096;
 
-/// Of a hull: what a vertex must add to it to matter.
+/// Least volume that a vertex must add to a hull, over the hull's volume.
 constexpr double kLeastGain = 3e-4;
 
 /// Unit vectors every 22.5 degrees.
 constexpr double kCos = 0.92387953251128674, kSin = 0.38268343236508977,
                  kDiagonal = 0.70710678118654752;
-constexpr double kRing[kAround][2] = {
+constexpr double kRing[kOutlinePoints][2] = {
     {1, 0},  {kCos, kSin},   {kDiagonal, kDiagonal},   {kSin, kCos},
     {0, 1},  {-kSin, kCos},  {-kDiagonal, kDiagonal},  {-kCos, kSin},
     {-1, 0}, {-kCos, -kSin}, {-kDiagonal, -kDiagonal}, {-kSin, -kCos},
     {0, -1}, {kSin, -kCos},  {kDiagonal, -kDiagonal},  {kCos, -kSin}};
 
-/// Where a plane cuts a mesh: the outline's outermost points.
+/// Outermost points of the outline in which a plane cuts a mesh.
 struct Slice {
   double place = 0;
-  std::array<double, kAround> reach;
-  std::array<Vec3, kAround> points;
+  std::array<double, kOutlinePoints> reach;
+  std::array<Vec3, kOutlinePoints> points;
   bool is_cut = false;
 
   explicit Slice(double at) : place(at) { reach.fill(-std::numeric_limits<double>::infinity()); }
   Vec3 middle() const {
     Vec3 sum = Vec3::Zero();
     for (const Vec3& p : points) sum += p;
-    return sum / static_cast<double>(kAround);
+    return sum / static_cast<double>(kOutlinePoints);
   }
 };
 
@@ -68,24 +69,24 @@ struct Frame {
 
 struct Candidate {
   Vec3 direction = Vec3::UnitX();
-  Vec3 middle = Vec3::Zero();  ///< Of the slice.
+  Vec3 middle = Vec3::Zero();  ///< Middle of the slice.
   double place = 0;
-  double price = std::numeric_limits<double>::infinity();
+  double cost = std::numeric_limits<double>::infinity();
   double hull_volume_m3 = 0;
 
   Cut cut() const { return {{direction, -place}, hull_volume_m3}; }
 };
 
-/// The edges that slices are made of: those of a mesh, or of an even share of its contours.
-struct Wires {
+/// Edges that planes cut: those of a mesh, or of every n-th contour of it.
+struct SliceEdges {
   std::vector<Vec3> points;
-  std::vector<std::uint32_t> corners;  ///< Of all contours, in a row.
-  std::vector<std::uint32_t> ends;     ///< Where each contour ends in `corners`.
+  std::vector<std::uint32_t> corners;  ///< Corners of all contours in turn.
+  std::vector<std::uint32_t> ends;     ///< End of each contour in `corners`.
 
-  explicit Wires(const PolygonMesh& mesh);
+  explicit SliceEdges(const PolygonMesh& mesh);
 };
 
-Wires::Wires(const PolygonMesh& mesh) {
+SliceEdges::SliceEdges(const PolygonMesh& mesh) {
   const std::size_t step = std::max<std::size_t>(1, mesh.contours.size() / kContours);
   constexpr std::uint32_t kUnused = ~std::uint32_t{0};
   std::vector<std::uint32_t> new_of_old(mesh.vertices.size(), kUnused);
@@ -101,26 +102,27 @@ Wires::Wires(const PolygonMesh& mesh) {
   }
 }
 
-/// Prices parallel cuts; reused from direction to direction.
+/// Evaluates parallel cuts; reused for one direction after the other.
 class Sweeper {
  public:
-  Sweeper(const Wires& wires, const std::vector<Vec3>& outermost, const Box& box, double evenness)
-      : wires_(wires), tips_(outermost), box_(box), evenness_(evenness) {}
+  Sweeper(const SliceEdges& edges, const std::vector<Vec3>& outermost, const Box& box,
+          double evenness)
+      : edges_(edges), outermost_(outermost), box_(box), evenness_(evenness) {}
 
-  /// The best of kSlices evenly spread planes.
-  Candidate anywhere(const Vec3& direction) {
-    lay_out(direction);
+  /// Returns the best of kSlices evenly spaced planes.
+  Candidate search_evenly(const Vec3& direction) {
+    project_vertices(direction);
     const auto [low, high] = std::minmax_element(places_.begin(), places_.end());
     const double step = (*high - *low) / (kSlices + 1);
     for (std::size_t k = 1; k <= kSlices; ++k) {
       slices_.emplace_back(*low + static_cast<double>(k) * step);
     }
-    return price(direction);
+    return cost(direction);
   }
 
-  /// The best of some planes within `reach` of a point, among others for the hull's sake.
-  Candidate near(const Vec3& direction, const Vec3& point, double reach_m) {
-    lay_out(direction);
+  /// Returns the best of several planes within `reach_m` of a point; others refine the hulls.
+  Candidate search_near(const Vec3& direction, const Vec3& point, double reach_m) {
+    project_vertices(direction);
     const auto [low, high] = std::minmax_element(places_.begin(), places_.end());
     const double at = direction.dot(point), step = (*high - *low) / (kSlices + 1);
     for (double place = *low + step; place < at - reach_m; place += step) {
@@ -134,28 +136,28 @@ class Sweeper {
     for (double place = at + reach_m + step; place < *high; place += step) {
       slices_.emplace_back(place);
     }
-    return price(direction);
+    return cost(direction);
   }
 
  private:
-  void lay_out(const Vec3& direction) {
+  void project_vertices(const Vec3& direction) {
     slices_.clear();
     places_.clear();
-    for (const Vec3& v : wires_.points) places_.push_back(direction.dot(v));
+    for (const Vec3& v : edges_.points) places_.push_back(direction.dot(v));
   }
-  Candidate price(const Vec3& direction);
+  Candidate cost(const Vec3& direction);
   void cut_edges(const Frame& frame);
   template <class Iterator>
   void sweep(Iterator begin, Iterator end, double sign, const Vec3& direction,
              std::vector<double>& volumes);
 
-  const Wires& wires_;
-  std::vector<Vec3> tips_;
+  const SliceEdges& edges_;
+  std::vector<Vec3> outermost_;
   const Box box_;
   const double evenness_;
-  std::vector<double> places_;       ///< Of vertices, along the direction.
-  std::vector<std::uint8_t> above_;  ///< Per vertex: how many slices it is above.
-  std::vector<Slice> slices_;        ///< In order.
+  std::vector<double> places_;       ///< Coordinates of vertices along the direction.
+  std::vector<std::uint8_t> above_;  ///< Per vertex: number of slices below it.
+  std::vector<Slice> slices_;        ///< Ascending.
   std::vector<double> below_m3_, above_m3_;
   SweepHull hull_;
 };
@@ -168,17 +170,17 @@ void Sweeper::cut_edges(const Frame& frame) {
     above_[v] = count;
   }
   std::size_t begin = 0;
-  for (const std::uint32_t end : wires_.ends) {
-    std::uint32_t from = wires_.corners[end - 1];
+  for (const std::uint32_t end : edges_.ends) {
+    std::uint32_t from = edges_.corners[end - 1];
     for (; begin < end; ++begin) {
-      const std::uint32_t to = wires_.corners[begin];
+      const std::uint32_t to = edges_.corners[begin];
       for (std::size_t s = above_[from]; s < above_[to]; ++s) {
         Slice& slice = slices_[s];
         const double t = (slice.place - places_[from]) / (places_[to] - places_[from]);
-        const Vec3 p = wires_.points[from] + t * (wires_.points[to] - wires_.points[from]);
+        const Vec3 p = edges_.points[from] + t * (edges_.points[to] - edges_.points[from]);
         const double u = frame.right.dot(p), v = frame.front.dot(p);
         slice.is_cut = true;
-        for (std::size_t i = 0; i < kAround; ++i) {
+        for (std::size_t i = 0; i < kOutlinePoints; ++i) {
           const double reach = kRing[i][0] * u + kRing[i][1] * v;
           if (reach <= slice.reach[i]) continue;
           slice.reach[i] = reach;
@@ -194,26 +196,27 @@ template <class Iterator>
 void Sweeper::sweep(Iterator begin, Iterator end, double sign, const Vec3& direction,
                     std::vector<double>& volumes) {
   hull_.restart(box_.center(), box_.extent().maxCoeff());
-  std::sort(tips_.begin(), tips_.end(), [&](const Vec3& a, const Vec3& b) {
+  std::sort(outermost_.begin(), outermost_.end(), [&](const Vec3& a, const Vec3& b) {
     return sign * direction.dot(a) < sign * direction.dot(b);
   });
   volumes.clear();
-  auto tip = tips_.begin();
+  auto point = outermost_.begin();
   for (auto slice = begin; slice != end; ++slice) {
-    for (; tip != tips_.end() && sign * direction.dot(*tip) < sign * slice->place; ++tip) {
-      hull_.add(*tip);
+    for (; point != outermost_.end() && sign * direction.dot(*point) < sign * slice->place;
+         ++point) {
+      hull_.add(*point);
     }
     if (slice->is_cut) {
-      for (std::size_t i = 0; i < kAround; ++i) {
+      for (std::size_t i = 0; i < kOutlinePoints; ++i) {
         if (i == 0 || slice->points[i] != slice->points[i - 1]) hull_.add(slice->points[i]);
       }
     }
     volumes.push_back(hull_.volume_m3());
   }
-  for (; tip != tips_.end(); ++tip) hull_.add(*tip);
+  for (; point != outermost_.end(); ++point) hull_.add(*point);
 }
 
-Candidate Sweeper::price(const Vec3& direction) {
+Candidate Sweeper::cost(const Vec3& direction) {
   cut_edges(Frame(direction));
   sweep(slices_.begin(), slices_.end(), 1, direction, below_m3_);
   sweep(slices_.rbegin(), slices_.rend(), -1, direction, above_m3_);
@@ -223,9 +226,9 @@ Candidate Sweeper::price(const Vec3& direction) {
   for (std::size_t s = 0; s < slices_.size(); ++s) {
     if (!slices_[s].is_cut) continue;
     const double below = below_m3_[s], above = above_m3_[slices_.size() - 1 - s];
-    const double price = below + above - whole + evenness_ * std::max(below, above);
-    if (!(price < best.price)) continue;
-    best.price = price;
+    const double cost = below + above - whole + evenness_ * std::max(below, above);
+    if (!(cost < best.cost)) continue;
+    best.cost = cost;
     best.hull_volume_m3 = below + above;
     best.place = slices_[s].place;
     best.middle = slices_[s].middle();
@@ -233,7 +236,7 @@ Candidate Sweeper::price(const Vec3& direction) {
   return best;
 }
 
-/// One of each pair of the 98 directions with coordinates of at most 2, not of unit length.
+/// Returns one of each pair of the 98 directions with coordinates of at most 2, not normalized.
 std::vector<Vec3> many_directions() {
   std::vector<Vec3> directions;
   for (int x = -2; x <= 2; ++x) {
@@ -247,7 +250,7 @@ std::vector<Vec3> many_directions() {
   return directions;
 }
 
-/// Appends the vertices that are farthest along a direction, and the other way.
+/// Appends the vertices that are farthest along a direction and against it.
 void add_farthest(const PolygonMesh& mesh, const Vec3& direction,
                   std::vector<std::uint32_t>& found) {
   double most = -std::numeric_limits<double>::infinity(), least = -most;
@@ -267,7 +270,7 @@ void add_farthest(const PolygonMesh& mesh, const Vec3& direction,
   found.push_back(first);
 }
 
-/// The directions tried first: those of the 26-dop, one of each pair, and the mesh's own axes.
+/// Returns the directions of the 26-dop, one of each pair, and the principal axes of the mesh.
 std::vector<Vec3> first_directions(const PolygonMesh& mesh) {
   std::vector<Vec3> directions;
   for (std::size_t i = 0; i < dop_directions().size(); i += 2) {
@@ -281,25 +284,25 @@ std::vector<Vec3> first_directions(const PolygonMesh& mesh) {
   return directions;
 }
 
-bool better(const Candidate& a, const Candidate& b) { return a.price < b.price; }
+bool better(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
 
-/// The best cut across each of the first directions, the best of them first.
-std::vector<Candidate> found_anywhere(const PolygonMesh& mesh, const Wires& wires,
-                                      const Outline& outline, double evenness) {
+/// Returns the best cut across each of the first directions, best first.
+std::vector<Candidate> find_cuts(const PolygonMesh& mesh, const SliceEdges& edges,
+                                 const Outline& outline, double evenness) {
   const Box box = bounds(mesh);
   const std::vector<Vec3> directions = first_directions(mesh);
   std::vector<Candidate> found(directions.size());
   for_chunks(directions.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
-    Sweeper sweeper(wires, outline.points, box, evenness);
-    for (std::size_t i = begin; i < end; ++i) found[i] = sweeper.anywhere(directions[i]);
+    Sweeper sweeper(edges, outline.points, box, evenness);
+    for (std::size_t i = begin; i < end; ++i) found[i] = sweeper.search_evenly(directions[i]);
   });
   std::stable_sort(found.begin(), found.end(), better);
   return found;
 }
 
-/// Searches around a cut, ever nearer.
-Candidate tilted_and_shifted(const Box& box, const Wires& wires, const Outline& outline,
-                             Candidate best) {
+/// Refines a cut by ever smaller tilts and shifts.
+Candidate refine_cut(const Box& box, const SliceEdges& edges, const Outline& outline,
+                     Candidate best) {
   double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kSlices;
   for (int round = 0; round < kTilts; ++round, tilt *= 0.5, reach_m *= 0.5) {
     const Frame frame(best.direction);
@@ -310,8 +313,8 @@ Candidate tilted_and_shifted(const Box& box, const Wires& wires, const Outline& 
     }
     std::vector<Candidate> found(directions.size());
     for_chunks(directions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      Sweeper sweeper(wires, outline.points, box, kEvenness);
-      found[i] = sweeper.near(directions[i], best.middle, reach_m);
+      Sweeper sweeper(edges, outline.points, box, kEvenness);
+      found[i] = sweeper.search_near(directions[i], best.middle, reach_m);
     });
     const Candidate& next = *std::min_element(found.begin(), found.end(), better);
     if (better(next, best)) best = next;
@@ -342,17 +345,17 @@ Outline outline_of(const PolygonMesh& mesh) {
 }
 
 std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Effort effort) {
-  const Wires wires(mesh);
-  Candidate best = found_anywhere(mesh, wires, outline, kEvenness)[0];
-  if (!(best.price < std::numeric_limits<double>::infinity())) return std::nullopt;
-  if (effort == Effort::kFull) best = tilted_and_shifted(bounds(mesh), wires, outline, best);
+  const SliceEdges edges(mesh);
+  Candidate best = find_cuts(mesh, edges, outline, kEvenness)[0];
+  if (!(best.cost < std::numeric_limits<double>::infinity())) return std::nullopt;
+  if (effort == Effort::kFull) best = refine_cut(bounds(mesh), edges, outline, best);
   return best.cut();
 }
 
 std::vector<Cut> middle_cuts(const PolygonMesh& mesh, const Outline& outline) {
   std::vector<Cut> cuts;
-  for (const Candidate& candidate : found_anywhere(mesh, Wires(mesh), outline, kMiddle)) {
-    if (candidate.price < std::numeric_limits<double>::infinity()) cuts.push_back(candidate.cut());
+  for (const Candidate& candidate : find_cuts(mesh, SliceEdges(mesh), outline, kMiddleEvenness)) {
+    if (candidate.cost < std::numeric_limits<double>::infinity()) cuts.push_back(candidate.cut());
   }
   return cuts;
 }

@@ -1,8 +1,8 @@
-// The plane that cuts a concave piece so that the hulls of its two sides are smallest.
+// Finds the plane that cuts a concave piece so that the hulls of its two sides are smallest.
 //
-// Read first: best_cut(). For each of some directions the mesh is sliced across it, and two sweeps
-// over the slices' outlines (sweep.h) price the cut at every slice; the best is then tilted
-// and shifted a little, again and again.
+// Read first: best_cut(). The mesh is sliced in several directions. Two sweeps over the outlines of
+// the slices (sweep.h) give the hull volumes of a cut at every slice; the best cut is then refined
+// by tilts and shifts.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,25 @@
 
 namespace sunder::fracture {
 
-/// About the convex hull of a mesh.
+/// Approximate convex hull of a mesh.
 struct Outline {
-  std::vector<Vec3> points;  ///< The vertices that matter for it, each once.
-  double hull_m3 = 0;        ///< Its volume; 0 where the mesh is flat.
+  std::vector<Vec3> points;  ///< Vertices that contribute to the hull, each once.
+  double hull_m3 = 0;        ///< Volume of the hull; 0 if the mesh is flat.
 };
-/// Of a mesh.
+/// Returns the outline of a mesh.
 Outline outline_of(const PolygonMesh& mesh);
 
-/// A plane that leaves part of a mesh on either side, and the volume of both sides' hulls together,
-/// about.
+/// A plane that cuts a mesh, and the approximate total volume of the hulls of both sides.
 struct Cut {
   Plane plane;
   double hull_volume_m3 = 0;
 };
-/// How many directions are tried, and how far the best is refined.
+/// Effort of a search: kLittle tries the first directions, kFull also refines the best cut.
 enum class Effort { kLittle, kFull };
 
-/// The cut whose hulls are smallest; none for a mesh too flat to tell. `outline` is the mesh's.
+/// Returns the cut with the smallest hulls; nullopt if the mesh is too flat.
 std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Effort effort);
-/// Cuts in several directions whose sides are about as large, those with the smallest hulls first.
+/// Returns one cut per direction with sides of about equal size; those with least hulls first.
 std::vector<Cut> middle_cuts(const PolygonMesh& mesh, const Outline& outline);
 
 }  // namespace sunder::fracture

@@ -32,8 +32,9 @@ void for_triangles(const PolygonMesh& mesh, const Use& use) {
   }
 }
 
-/// The place farthest from all chosen so far, again and again, from the sample nearest the middle.
-std::vector<Vec3> spread_seeds(std::span<const Vec3> samples, std::uint32_t count) {
+/// Returns samples that are far apart: each is the sample farthest from all chosen before, and the
+/// first the one farthest from the middle.
+std::vector<Vec3> distant_samples(std::span<const Vec3> samples, std::uint32_t count) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& s : samples) middle += s / static_cast<double>(samples.size());
   std::vector<double> nearest(samples.size());
@@ -84,7 +85,7 @@ void move_to_means(std::span<const Vec3> samples, std::vector<Vec3>& nodes) {
   }
 }
 
-/// How much larger a shell's hull is than the shell, roughly; its volume goes to `volume`.
+/// Returns the approximate volume of a shell's hull less that of the shell, which is `volume`.
 double concavity(const PolygonMesh& shell, double& volume) {
   constexpr std::size_t kHullVertices = 32;
   constexpr double kRounding = 1e-3;
@@ -116,7 +117,7 @@ std::vector<Vec3> surface_samples(const PolygonMesh& mesh, std::size_t count) {
 std::vector<Vec3> automatic_nodes(const PolygonMesh& mesh, std::uint32_t count) {
   const std::vector<Vec3> samples =
       surface_samples(mesh, std::clamp(kSamplesPerNode * count, kFewestSamples, kMostSamples));
-  std::vector<Vec3> nodes = spread_seeds(samples, count);
+  std::vector<Vec3> nodes = distant_samples(samples, count);
   for (int round = 0; round < kLloydRounds; ++round) move_to_means(samples, nodes);
   return nodes;
 }
@@ -134,7 +135,7 @@ std::vector<std::uint32_t> share_nodes(std::span<const PolygonMesh> shells, std:
   std::vector<std::uint32_t> share(shells.size(), 1);
   if (!(sum > 0)) return share;
   for (std::size_t left = count > shells.size() ? count - shells.size() : 0; left > 0; --left) {
-    std::size_t neediest = 0;  // as seats are given to parties (Webster)
+    std::size_t neediest = 0;  // Method of Webster, as for seats in a parliament.
     for (std::size_t s = 1; s < shells.size(); ++s) {
       if (weight[s] / (2 * share[s] + 1) > weight[neediest] / (2 * share[neediest] + 1)) {
         neediest = s;

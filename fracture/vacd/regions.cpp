@@ -12,17 +12,17 @@
 namespace sunder::fracture {
 namespace {
 
-/// Room around a mesh, over its size, so that no outermost face of a region touches it.
-constexpr double kRoom = 1e-2;
-/// Normals of planes this close are one direction.
+/// Margin around a mesh, over its size, so that it does not touch the outermost faces of regions.
+constexpr double kMargin = 1e-2;
+/// Distance of two equal unit normals.
 constexpr double kParallel = 1e-6;
 
-ConvexPolyhedron room_around(const Box& box) {
-  const Vec3 room = Vec3::Constant(kRoom * box.extent().maxCoeff());
+ConvexPolyhedron box_with_margin(const Box& box) {
+  const Vec3 room = Vec3::Constant(kMargin * box.extent().maxCoeff());
   return make_box(box.min - room, box.max + room);
 }
 
-/// The cells' inner planes, nearest first.
+/// Returns the inner planes of a cell, nearest first.
 std::vector<NamedPlane> inner_planes(const ConvexPolyhedron& cell) {
   std::vector<NamedPlane> planes;
   const Vec3 center = bounds(cell).center();
@@ -36,27 +36,26 @@ std::vector<NamedPlane> inner_planes(const ConvexPolyhedron& cell) {
   return planes;
 }
 
-/// Voronoi cells whose inner faces have names of their own.
-std::vector<ConvexPolyhedron> named_cells(std::span<const Vec3> nodes, const Box& box,
-                                          PlaneNames& names) {
+/// Returns Voronoi cells whose inner faces have unique ids.
+std::vector<ConvexPolyhedron> cells_with_ids(std::span<const Vec3> nodes, const Box& box,
+                                             PlaneIdAllocator& ids) {
   std::vector<ConvexPolyhedron> cells;
   if (nodes.size() < 2) {
-    cells.push_back(room_around(box));
+    cells.push_back(box_with_margin(box));
     return cells;
   }
-  std::vector<Plane> planes(1);  // so that no name of a plane is none
-  cells = voronoi_cells(nodes, room_around(box), planes);
+  std::vector<Plane> planes(1);  // Reserves index 0, whose id would be zero.
+  cells = voronoi_cells(nodes, box_with_margin(box), planes);
   for (ConvexPolyhedron& cell : cells) {
     for (ConvexPolyhedron::Face& face : cell.faces) {
-      if (!face.id.none()) face.id.value += 2 * names.used();
+      if (!face.id.none()) face.id.value += 2 * ids.used();
     }
   }
-  names.use(planes.size() - 1);
+  ids.reserve(planes.size() - 1);
   return cells;
 }
 
-/// The directions in which a region may be clipped: those of its own faces are done already, and
-/// clipping there again would leave slivers of faces that neighbours share.
+/// Removes directions of the region's shared faces: clipping in them again would leave slivers.
 void drop_own_directions(const ConvexPolyhedron& region, std::vector<Vec3>& directions) {
   std::erase_if(directions, [&](const Vec3& direction) {
     return std::any_of(
@@ -80,9 +79,9 @@ double region_tolerance(const Box& box) {
 }
 
 std::vector<VacdPiece> voronoi_pieces(const PolygonMesh& mesh, std::span<const Vec3> nodes,
-                                      PlaneNames& names) {
+                                      PlaneIdAllocator& ids) {
   const Box box = bounds(mesh);
-  std::vector<ConvexPolyhedron> cells = named_cells(nodes, box, names);
+  std::vector<ConvexPolyhedron> cells = cells_with_ids(nodes, box, ids);
   std::erase_if(cells, [](const ConvexPolyhedron& cell) { return cell.empty(); });
   std::vector<std::vector<NamedPlane>> planes;
   for (const ConvexPolyhedron& cell : cells) planes.push_back(inner_planes(cell));
@@ -115,7 +114,7 @@ ConvexPolyhedron fitted_region(const VacdPiece& piece, const Fit& fit) {
   return fitted;
 }
 
-bool shows_all(const ConvexPolyhedron& polyhedron, const PolygonMesh& mesh) {
+bool renders_like(const ConvexPolyhedron& polyhedron, const PolygonMesh& mesh) {
   constexpr double kSameVolume = 1e-13;
   constexpr float kFlat = 0.9999f;
   const double volume = mass_properties(mesh).volume_m3;

@@ -1,4 +1,4 @@
-// Convex regions of space, and the islands of a mesh in each.
+// Convex regions of space, and the islands of a mesh in each of them.
 #pragma once
 
 #include <cstdint>
@@ -10,44 +10,44 @@
 
 namespace sunder::fracture {
 
-/// A connected part of a mesh, and the convex region it lies in. Faces of the region that other
-/// regions meet have names; its outermost ones have none.
+/// A connected part of a mesh and the convex region that contains it. Faces shared with other
+/// regions have plane ids; the outermost faces have none.
 struct VacdPiece {
   ConvexPolyhedron region;
   PolygonMesh mesh;
-  std::uint32_t shell = 0;  ///< Which of the mesh's shells it is of.
+  std::uint32_t shell = 0;  ///< Index of the mesh's shell.
 
-  /// Whether the mesh is the region itself: no part of the original surface is in it.
+  /// Returns true if the mesh fills the region: it has no part of the original surface.
   bool is_internal() const;
 };
 
-/// Names planes that no other part of a compound has.
-class PlaneNames {
+/// Allocates plane ids that are unique in a compound.
+class PlaneIdAllocator {
  public:
-  /// One more.
+  /// Returns a new id.
   PlaneId next() { return {2 * ++used_}; }
-  /// Takes note that so many have been given by others, from used() on.
-  void use(std::uint64_t count) { used_ += count; }
-  /// How many there are so far.
+  /// Reserves `count` ids that were assigned elsewhere, starting at used().
+  void reserve(std::uint64_t count) { used_ += count; }
+  /// Returns the number of ids in use.
   std::uint64_t used() const { return used_; }
 
  private:
   std::uint64_t used_ = 0;
 };
 
-/// Distances up to this are as good as none, for a mesh in that box.
+/// Returns the distance below which geometry in a box counts as coincident.
 double region_tolerance(const Box& box);
 
-/// The pieces of a mesh in the Voronoi cells of `nodes`; in one region without any. Those of one
-/// cell follow each other.
+/// Returns the pieces of a mesh in the Voronoi cells of `nodes`, or in one region if there are
+/// none. Pieces of one cell are consecutive.
 std::vector<VacdPiece> voronoi_pieces(const PolygonMesh& mesh, std::span<const Vec3> nodes,
-                                      PlaneNames& names);
+                                      PlaneIdAllocator& ids);
 
-/// The region clipped to fit its mesh (paper 4.2); an internal piece's as it is. New faces, and the
-/// region's outermost ones, are left without names.
+/// Returns the region clipped to fit its mesh (paper 4.2), or the region itself for an internal
+/// piece. New faces and outermost faces have no ids.
 ConvexPolyhedron fitted_region(const VacdPiece& piece, const Fit& fit);
 
-/// Whether a polyhedron shows all that a mesh does: the same solid, flat-shaded, without texture.
-bool shows_all(const ConvexPolyhedron& polyhedron, const PolygonMesh& mesh);
+/// Returns true if a polyhedron renders like a mesh: equal volume, flat shading and no texture.
+bool renders_like(const ConvexPolyhedron& polyhedron, const PolygonMesh& mesh);
 
 }  // namespace sunder::fracture

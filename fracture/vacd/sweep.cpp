@@ -8,16 +8,16 @@
 namespace sunder::fracture {
 namespace {
 
-/// Volumes below this share of the size's cube are rounding.
+/// Distances, areas and volumes below this share of the size's power are rounding errors.
 constexpr double kFlat = 1e-12;
-/// Faces that are looked at together.
+/// Number of faces evaluated together.
 constexpr std::size_t kBlock = 16;
-/// Points are moved by up to this share of the size: of slices and of well-made solids many lie in
-/// one plane, and rounding would decide which faces each of them sees.
-constexpr double kJoggle = 1e-5;
+/// Points are moved by up to this share of the size: many points of slices and of regular solids
+/// are coplanar, and rounding would decide which faces are visible from them.
+constexpr double kPerturbation = 1e-5;
 
-/// Of a number, three of its own in [-1, 1).
-Vec3 scattered(std::uint64_t number) {
+/// Returns three pseudorandom numbers in [-1, 1) that depend only on `number`.
+Vec3 pseudorandom(std::uint64_t number) {
   const std::uint64_t bits = mix(number);
   constexpr std::uint64_t kMask = (1u << 21) - 1;
   const Vec3 parts(static_cast<double>(bits & kMask), static_cast<double>((bits >> 21) & kMask),
@@ -33,18 +33,18 @@ void SweepHull::restart(const Vec3& origin, double size_m) {
   volume_ = 0;
   count_ = 0;
   points_.clear();
-  waiting_.clear();
+  pending_.clear();
   faces_.clear();
   free_.clear();
   for (auto* column : {&x_, &y_, &z_, &d_, &gain_}) column->clear();
 }
 
 bool SweepHull::add(const Vec3& point, double least_m3) {
-  const Vec3 moved = point - origin_ + kJoggle * size_ * scattered(++count_);
+  const Vec3 moved = point - origin_ + kPerturbation * size_ * pseudorandom(++count_);
   return faces_.empty() ? start(moved) : grow(moved, least_m3);
 }
 
-/// Collects the first four points that span a volume, and then adds those that had to wait.
+/// Collects the first four points that span a volume, and then adds the points kept meanwhile.
 bool SweepHull::start(const Vec3& point) {
   const auto apart = [&] {
     if (points_.empty()) return true;
@@ -55,7 +55,7 @@ bool SweepHull::start(const Vec3& point) {
     return std::abs(ab.cross(points_[2] - points_[0]).dot(a)) > kFlat * size_ * size_ * size_;
   };
   if (!apart()) {
-    waiting_.push_back(point);
+    pending_.push_back(point);
     return true;
   }
   points_.push_back(point);
@@ -74,12 +74,12 @@ bool SweepHull::start(const Vec3& point) {
     faces_[slot].neighbours = kNeighbours[f];
   }
   volume_ = std::abs(volume6) / 6;
-  for (const Vec3& late : waiting_) grow(late, 0);
+  for (const Vec3& late : pending_) grow(late, 0);
   return true;
 }
 
 bool SweepHull::grow(const Vec3& point, double least_m3) {
-  const double gain = find_seen(point);
+  const double gain = find_visible(point);
   if (!(gain > 6 * least_m3) || !find_border()) return false;
   volume_ += gain / 6;
   points_.push_back(point);
@@ -87,10 +87,10 @@ bool SweepHull::grow(const Vec3& point, double least_m3) {
   return true;
 }
 
-/// Fills seen_; six times the volume that the point would add.
-double SweepHull::find_seen(const Vec3& point) {
+/// Sets visible_ to the visible faces; returns six times the volume that the point would add.
+double SweepHull::find_visible(const Vec3& point) {
   const double px = point.x(), py = point.y(), pz = point.z();
-  seen_.clear();
+  visible_.clear();
   double sum = 0;
   for (std::size_t block = 0; block < gain_.size(); block += kBlock) {
     int any = 0;
@@ -102,18 +102,18 @@ double SweepHull::find_seen(const Vec3& point) {
     if (!any) continue;
     for (std::size_t f = block; f < block + kBlock; ++f) {
       if (!(gain_[f] > 0)) continue;
-      seen_.push_back(static_cast<std::uint32_t>(f));
+      visible_.push_back(static_cast<std::uint32_t>(f));
       sum += gain_[f];
     }
   }
   return sum;
 }
 
-/// Fills border_; false unless it is one loop, as rounding on a flat hull may make it.
+/// Sets border_; returns false unless it is one loop, which rounding on a flat hull may prevent.
 bool SweepHull::find_border() {
   border_.clear();
   border_at_.resize(points_.size());
-  for (const std::uint32_t f : seen_) {
+  for (const std::uint32_t f : visible_) {
     const Face& face = faces_[f];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t beyond = face.neighbours[i];
@@ -133,9 +133,9 @@ bool SweepHull::find_border() {
   return steps + 1 == border_.size();
 }
 
-/// Replaces the faces seen by triangles from the border to the last point.
+/// Replaces the visible faces by triangles from the border to the last point.
 void SweepHull::build_fan() {
-  for (const std::uint32_t f : seen_) {
+  for (const std::uint32_t f : visible_) {
     x_[f] = y_[f] = z_[f] = 0;
     d_[f] = -1;
     free_.push_back(f);

@@ -1,7 +1,7 @@
-// Cuts make a tree: a piece, the islands on either side of its cut, theirs. It is grown to more
-// leaves than asked for, the loosest hull first, and then pruned to those of least volume together
-// (as classification trees are: Breiman et al. 1984), so that a cut that gains nothing by itself
-// may prepare one that does.
+// Cuts form a tree: the children of a piece are the islands on both sides of its cut. The tree is
+// grown to more leaves than allowed, loosest hull first, and then pruned to the leaves of least
+// total volume (as classification trees are: Breiman et al. 1984), so that a cut without gain may
+// prepare one with gain.
 #include "fracture/vacd/tree.h"
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kOvergrowth = 1.5;    // leaves grown for each that is wanted
-constexpr std::size_t kAtOnce = 8;     // pieces cut between two looks at which is loosest
-constexpr double kTightEnough = 1e-4;  // of all hulls: looser pieces are cut
+constexpr double kOvergrowth = 1.5;    // Leaves grown per leaf allowed.
+constexpr std::size_t kAtOnce = 8;     // Pieces cut before the loosest are selected again.
+constexpr double kTightEnough = 1e-4;  // Slack over the mean hull volume; looser pieces are cut.
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The least volume of hulls when two trees share the leaves, by number less one.
-std::vector<double> shared(const std::vector<double>& a, const std::vector<double>& b,
-                           std::size_t most) {
+/// Returns the least total hull volume of two trees that share n + 1 leaves, by n.
+std::vector<double> least_shared(const std::vector<double>& a, const std::vector<double>& b,
+                                 std::size_t most) {
   std::vector<double> sum(std::min(most, a.size() + b.size()), kInfinity);
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size() && i + j + 1 < sum.size(); ++j) {
@@ -35,9 +35,9 @@ std::vector<double> shared(const std::vector<double>& a, const std::vector<doubl
 
 class Tree {
  public:
-  Tree(std::vector<VacdPiece> pieces, const RefineLimits& limits, PlaneNames& names)
+  Tree(std::vector<VacdPiece> pieces, const RefineLimits& limits, PlaneIdAllocator& plane_ids)
       : limits_(limits),
-        names_(names),
+        ids_(plane_ids),
         roots_(pieces.size()),
         leaves_(pieces.size()),
         most_(limits.convexes > 0 ? std::max<std::size_t>(limits.convexes, pieces.size())
@@ -57,22 +57,22 @@ class Tree {
     return branch.piece.mesh.faces.size() > limits_.polygons;
   }
   std::vector<std::uint32_t> loosest() const;
-  std::vector<std::vector<double>> together(const std::vector<std::uint32_t>& children) const;
-  void harvest(const std::vector<std::uint32_t>& siblings, std::size_t count,
-               std::vector<VacdPiece>& pieces);
+  std::vector<std::vector<double>> combined(const std::vector<std::uint32_t>& children) const;
+  void collect_leaves(const std::vector<std::uint32_t>& siblings, std::size_t count,
+                      std::vector<VacdPiece>& pieces);
 
   const RefineLimits limits_;
-  PlaneNames& names_;
+  PlaneIdAllocator& ids_;
   std::vector<Branch> branches_;
   const std::size_t roots_;
   std::size_t leaves_;
-  const std::size_t most_;  ///< Pieces allowed.
+  const std::size_t most_;  ///< Maximum number of pieces.
   double hull_m3_ = 0;
-  /// Per branch and number of leaves less one: the least volume of so many hulls below it.
+  /// Per branch, by number of leaves less one: least total hull volume of its leaves.
   std::vector<std::vector<double>> least_;
 };
 
-/// The leaves to be cut next.
+/// Returns the leaves to be cut next, loosest first.
 std::vector<std::uint32_t> Tree::loosest() const {
   std::vector<std::uint32_t> order;
   for (std::uint32_t n = 0; n < branches_.size(); ++n) {
@@ -100,7 +100,7 @@ void Tree::grow() {
     if (next.empty()) return;
     if (limits_.progress) limits_.progress(static_cast<double>(leaves_) / wanted);
     std::vector<PlaneId> ids;
-    for (std::size_t i = 0; i < next.size(); ++i) ids.push_back(names_.next());
+    for (std::size_t i = 0; i < next.size(); ++i) ids.push_back(ids_.next());
     std::vector<std::vector<Branch>> parts(next.size());
     for_chunks(next.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
       parts[i] = cut_branch(branches_[next[i]], ids[i]);
@@ -117,19 +117,19 @@ void Tree::grow() {
   }
 }
 
-/// What the first child, the first two, and so on can do.
-std::vector<std::vector<double>> Tree::together(const std::vector<std::uint32_t>& children) const {
+/// Returns the least hull volumes of the first child, of the first two, and so on.
+std::vector<std::vector<double>> Tree::combined(const std::vector<std::uint32_t>& children) const {
   std::vector<std::vector<double>> sums;
   for (const std::uint32_t child : children) {
-    sums.push_back(sums.empty() ? least_[child] : shared(sums.back(), least_[child], most_));
+    sums.push_back(sums.empty() ? least_[child] : least_shared(sums.back(), least_[child], most_));
   }
   return sums;
 }
 
-/// Appends the leaves of the best way to leave `count` of them below some siblings.
-void Tree::harvest(const std::vector<std::uint32_t>& siblings, std::size_t count,
-                   std::vector<VacdPiece>& pieces) {
-  const auto sums = together(siblings);
+/// Appends the best `count` leaves below some siblings.
+void Tree::collect_leaves(const std::vector<std::uint32_t>& siblings, std::size_t count,
+                          std::vector<VacdPiece>& pieces) {
+  const auto sums = combined(siblings);
   std::vector<std::size_t> share(siblings.size());
   for (std::size_t c = siblings.size(); c-- > 0; count -= share[c]) {
     const std::vector<double>& own = least_[siblings[c]];
@@ -146,41 +146,41 @@ void Tree::harvest(const std::vector<std::uint32_t>& siblings, std::size_t count
     if (share[c] == 1) {
       pieces.push_back(std::move(branch.piece));
     } else {
-      harvest(branch.children, share[c], pieces);
+      collect_leaves(branch.children, share[c], pieces);
     }
   }
 }
 
 std::vector<VacdPiece> Tree::pruned() {
   least_.resize(branches_.size());
-  for (std::size_t n = branches_.size(); n-- > 0;) {  // children come after their parent
-    const auto sums = together(branches_[n].children);
+  for (std::size_t n = branches_.size(); n-- > 0;) {  // Children have larger indices than parents.
+    const auto sums = combined(branches_[n].children);
     least_[n] = sums.empty() ? std::vector<double>(1) : sums.back();
-    const double rather_any_cut = too_many_polygons(branches_[n]) ? 1e3 * hull_m3_ : 0;
-    least_[n][0] = branches_[n].hull_m3 + rather_any_cut;
+    const double penalty_m3 = too_many_polygons(branches_[n]) ? 1e3 * hull_m3_ : 0;
+    least_[n][0] = branches_[n].hull_m3 + penalty_m3;
   }
   std::vector<std::uint32_t> roots(roots_);
   std::iota(roots.begin(), roots.end(), 0u);
   std::vector<VacdPiece> pieces;
   if (roots.empty()) return pieces;
-  const std::vector<double> all = together(roots).back();
+  const std::vector<double> all = combined(roots).back();
   const std::size_t count =
       limits_.convexes == 0
           ? leaves_
           : 1 + static_cast<std::size_t>(std::min_element(all.begin(), all.end()) - all.begin());
-  harvest(roots, count, pieces);
+  collect_leaves(roots, count, pieces);
   return pieces;
 }
 
 }  // namespace
 
 std::vector<VacdPiece> refine(std::vector<VacdPiece> pieces, const RefineLimits& limits,
-                              PlaneNames& names) {
+                              PlaneIdAllocator& plane_ids) {
   const bool small = std::all_of(pieces.begin(), pieces.end(), [&](const VacdPiece& piece) {
     return piece.mesh.faces.size() <= limits.polygons;
   });
   if (limits.convexes == 0 && small) return pieces;
-  Tree tree(std::move(pieces), limits, names);
+  Tree tree(std::move(pieces), limits, plane_ids);
   tree.grow();
   return tree.pruned();
 }

@@ -1,5 +1,5 @@
-// Pieces cut further by planes, where hulls are loosest, and put together again where a cut gave
-// least: as many convexes as allowed, as tight as the cuts tried can make them.
+// Refines pieces by planes: cuts those with the loosest hulls, and then undoes the cuts that gained
+// least, so that the allowed number of convexes is as tight as possible.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 
 namespace sunder::fracture {
 
-/// How far pieces are cut.
+/// Limits of refine().
 struct RefineLimits {
-  std::uint32_t convexes = 0;  ///< At most so many pieces; 0: cut only what has too many polygons.
-  std::uint32_t polygons = 0;  ///< A piece with more is cut again, if `convexes` allows.
-  std::function<void(double)> progress{};  ///< Told of the share done; may be empty.
+  /// Maximum number of pieces; 0: only pieces with too many polygons are cut.
+  std::uint32_t convexes = 0;
+  std::uint32_t polygons = 0;  ///< A piece with more polygons is cut again if `convexes` allows it.
+  std::function<void(double)> progress{};  ///< Called with the fraction done; may be empty.
 };
 
-/// The pieces, some of them cut into smaller ones; never fewer than before.
+/// Returns the pieces, some of them cut into smaller ones; never fewer than given.
 std::vector<VacdPiece> refine(std::vector<VacdPiece> pieces, const RefineLimits& limits,
-                              PlaneNames& names);
+                              PlaneIdAllocator& ids);
 
 }  // namespace sunder::fracture

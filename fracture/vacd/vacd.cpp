@@ -29,24 +29,24 @@ void check_options(const VacdOptions& options) {
   }
 }
 
-/// Pieces of all shells, `count` automatic nodes among them unless there are nodes by hand.
+/// Returns the pieces of all shells, with `count` automatic nodes unless there are nodes by hand.
 std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& options,
-                                  std::uint32_t count, PlaneNames& names) {
+                                  std::uint32_t count, PlaneIdAllocator& ids) {
   std::vector<VacdPiece> pieces;
   const std::vector<std::uint32_t> share = share_nodes(mesh.shells, count);
   for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
     const PolygonMesh& shell = mesh.shells[s];
     const std::vector<Vec3> nodes =
         options.nodes.empty() ? automatic_nodes(shell, share[s]) : options.nodes;
-    std::vector<VacdPiece> part = voronoi_pieces(shell, nodes, names);
+    std::vector<VacdPiece> part = voronoi_pieces(shell, nodes, ids);
     for (VacdPiece& piece : part) piece.shell = static_cast<std::uint32_t>(s);
     std::move(part.begin(), part.end(), std::back_inserter(pieces));
   }
   return pieces;
 }
 
-/// As many as large meshes need for pieces of few enough polygons: nodes are placed sooner than
-/// pieces are cut one by one.
+/// Returns enough nodes for pieces with few enough polygons, as placing nodes is faster than
+/// cutting pieces one by one.
 std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& options) {
   constexpr double kUneven = 1.5;
   std::size_t polygons = 0;
@@ -56,20 +56,20 @@ std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& opti
                     kMostNodes);
 }
 
-/// Pieces by nodes, if there are any, cut further where `convexes` allows or `polygons` demands.
+/// Returns pieces cut by nodes, if any, and refined by `convexes` and `polygons`.
 std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& options,
-                                  PlaneNames& names) {
+                                  PlaneIdAllocator& ids) {
   const auto shells = static_cast<std::uint32_t>(mesh.shells.size());
   const std::uint32_t limit = options.convexes;
   std::uint32_t count =
       options.node_count.value_or(limit > 0 ? shells : nodes_by_default(mesh, options));
   for (;;) {
-    names = {};
-    std::vector<VacdPiece> pieces = all_pieces(mesh, options, count, names);
+    ids = {};
+    std::vector<VacdPiece> pieces = all_pieces(mesh, options, count, ids);
     const auto made = static_cast<std::uint32_t>(pieces.size());
     const bool fewest = options.nodes.empty() && count <= shells;
     if (limit == 0 || made <= limit || fewest) {
-      return refine(std::move(pieces), {limit, options.polygons, options.progress}, names);
+      return refine(std::move(pieces), {limit, options.polygons, options.progress}, ids);
     }
     if (!options.nodes.empty()) {
       throw InputError("the nodes make " + std::to_string(made) + " convexes, more than the " +
@@ -79,10 +79,10 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
   }
 }
 
-/// Drops pieces that are inside out, or that enclose no more than rounding errors do. Returns what
-/// those that are inside out would enclose.
+/// Removes pieces that are inside out or have no volume but rounding errors; returns the volume of
+/// those that are inside out.
 double drop_inside_out(const RepairedMesh& mesh, std::vector<VacdPiece>& pieces) {
-  constexpr double kRounding = 1e-15;  // of a volume, over that of a cube of the mesh's diagonal
+  constexpr double kRounding = 1e-15;  // Least volume, over the cube of the mesh's diagonal.
   Box box;
   for (const PolygonMesh& shell : mesh.shells) box.extend(bounds(shell));
   const double least_m3 = kRounding * std::pow(box.extent().norm(), 3);
@@ -104,7 +104,7 @@ double drop_inside_out(const RepairedMesh& mesh, std::vector<VacdPiece>& pieces)
   return dropped;
 }
 
-/// What most of a mesh's original surface is marked to be; `otherwise` if it has none.
+/// Returns the material marked on most of a mesh's original surface; `otherwise` if it has none.
 MaterialIndex material_of(const PolygonMesh& mesh, const VacdOptions& options,
                           MaterialIndex otherwise) {
   std::map<MaterialIndex, double> area_m2;
@@ -125,7 +125,7 @@ bool is_painted(const PolygonMesh& mesh, const VacdOptions& options) {
   });
 }
 
-/// A part per piece: fitted to its mesh, which goes with it unless the part looks the same alone.
+/// Returns a part per piece, fitted to its mesh, with the mesh unless the part renders alike.
 std::vector<Part> fitted_parts(const RepairedMesh& mesh, std::vector<VacdPiece> pieces,
                                const VacdOptions& options) {
   std::vector<MaterialIndex> of_shells;
@@ -138,14 +138,14 @@ std::vector<Part> fitted_parts(const RepairedMesh& mesh, std::vector<VacdPiece> 
     parts[p].polyhedron = fitted_region(piece, options.fit);
     parts[p].material = material_of(piece.mesh, options, of_shells[piece.shell]);
     if (piece.is_internal()) return;
-    if (is_painted(piece.mesh, options) || !shows_all(parts[p].polyhedron, piece.mesh)) {
+    if (is_painted(piece.mesh, options) || !renders_like(parts[p].polyhedron, piece.mesh)) {
       parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
     }
   });
   return parts;
 }
 
-/// Faces of different shells that lie this close to one plane touch.
+/// Returns the distance from one plane up to which faces of different shells touch.
 double touching_tolerance(const RepairedMesh& mesh) {
   constexpr double kTouching = 1e-7;
   Box box;
@@ -173,8 +173,8 @@ VacdFigures measure(const Compound& compound, const RepairedMesh& mesh) {
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   check_options(options);
   const Stopwatch watch;
-  PlaneNames names;
-  std::vector<VacdPiece> pieces = cut_pieces(mesh, options, names);
+  PlaneIdAllocator ids;
+  std::vector<VacdPiece> pieces = cut_pieces(mesh, options, ids);
   const double inside_out_m3 = drop_inside_out(mesh, pieces);
   const double split_ms = watch.ms();
   std::vector<Part> parts = fitted_parts(mesh, std::move(pieces), options);

@@ -1,8 +1,8 @@
-// Volumetric approximate convex decomposition: a visual mesh becomes a compound (paper 4.1).
+// Volumetric approximate convex decomposition: converts a visual mesh to a compound (paper 4.1).
 //
-// Read first: decompose() in vacd.cpp, the list of steps. Space is cut into convex regions, by
-// Voronoi nodes (vacd/nodes.h) and then by planes where that makes hulls tighter; each region
-// owns the islands of the mesh in it, and is fitted to each of them.
+// Read first: decompose() in vacd.cpp, which lists the steps. Space is divided into convex regions,
+// by Voronoi nodes (nodes.h) and then by planes where these make hulls tighter; each region owns
+// the islands of the mesh in it and is fitted to each of them.
 #pragma once
 
 #include <cstdint>
@@ -18,64 +18,69 @@
 
 namespace sunder::fracture {
 
-/// Voronoi nodes where nothing else is asked for.
+/// Default number of Voronoi nodes.
 inline constexpr std::uint32_t kDefaultNodes = 12;
-inline constexpr std::uint32_t kMostNodes = 10000;        ///< Also of convexes.
-inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Of a piece.
+inline constexpr std::uint32_t kMostNodes = 10000;  ///< Maximum number of nodes and of convexes.
+inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Default limit of polygons per piece.
 
-/// How a mesh is decomposed.
+/// Options of a decomposition.
 struct VacdOptions {
   std::vector<Vec3>
-      nodes;  ///< Sites of Voronoi cells, by hand, in the mesh's coordinates; empty: automatic.
-  /// Automatic nodes, shared among the shells; none by default where `convexes` is given.
+      /// Sites of Voronoi cells in the mesh's coordinates, placed by hand; empty: automatic.
+      nodes;
+  /// Number of automatic nodes of all shells together; none by default if `convexes` is given.
   std::optional<std::uint32_t> node_count;
-  /// At most so many convexes, and no fewer where more make tighter hulls; 0: what the nodes make.
-  /// A convex owns one connected mesh, so there are never fewer than shells.
+  /// Maximum number of convexes, which is reached if more convexes make tighter hulls; 0: as many
+  /// as the nodes make. There are never fewer convexes than shells, as a convex owns one connected
+  /// mesh.
   std::uint32_t convexes = 0;
-  /// A piece with more is cut again, if `convexes` allows: what an impact costs grows with it.
+  /// A piece with more polygons is cut again if allowed: the cost of an impact grows with them.
   std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
-  /// By marks of faces (PolygonMesh::Face), from 1 on: what a convex is made of most of whose
-  /// surface has that mark, or, if it has none, most of whose shell's has. Other marks: `material`.
+  /// Materials by the marks of faces (PolygonMesh::Face), from 1 on. A convex has the material of
+  /// the mark with most area on its surface, or on its shell's surface if it has none itself. Other
+  /// marks stand for `material`.
   std::vector<MaterialIndex> marked{};
-  /// Likewise: whether such faces look other than their material does, and so must stay as they
-  /// are.
+  /// By marks, from 1 on: true if faces with the mark have their own texture, so that the visual
+  /// mesh must be kept.
   std::vector<std::uint8_t> painted{};
-  std::function<void(double)> progress{};  ///< Told of the share of the work done; may be empty.
+  /// Called with the fraction of the work done; may be empty.
+  std::function<void(double)> progress{};
 };
 
-/// What came of it.
+/// Measurements of a decomposition.
 struct VacdFigures {
   double mesh_volume_m3 = 0;
-  /// Of parts left out because they are inside out: the mesh passes through itself there.
+  /// Volume of parts left out because they are inside out: the mesh intersects itself there.
   double inside_out_m3 = 0;
-  double hull_volume_m3 = 0;             ///< Of all convexes' polyhedra.
-  std::size_t max_faces_per_convex = 0;  ///< Polygons of one convex's visual mesh.
-  std::size_t ghosts = 0;                ///< Overlaps of shells, or of islands' hulls.
-  double split_ms = 0;                   ///< Nodes, regions and the cutting of the mesh.
+  double hull_volume_m3 = 0;  ///< Volume of all convexes' polyhedra.
+  /// Largest number of polygons of one convex's visual mesh.
+  std::size_t max_faces_per_convex = 0;
+  std::size_t ghosts = 0;  ///< Number of overlaps of shells, or of the hulls of islands.
+  double split_ms = 0;     ///< Time for nodes, regions and cutting the mesh.
   double total_ms = 0;
 
   double hull_volume_ratio() const { return hull_volume_m3 / mesh_volume_m3; }
 };
 
-/// A decomposition.
+/// Result of a decomposition.
 struct Vacd {
   Compound compound;
   VacdFigures figures;
 };
 
-/// Convexes that each own one connected watertight piece of a shell, within disjoint convex
-/// regions; pieces sum to the mesh, less what of it is inside out. Without visual mesh are regions
-/// wholly inside the mesh, and pieces that are flat-shaded convexes without texture or paint:
-/// seen alone, they look the same. Regions that touch share plane ids and bonds, and hulls that
-/// overlap (of different shells, or of islands in one region) ghosts. Throws InputError if the
-/// options ask for more than kMostNodes, for nodes by hand that make more convexes than allowed, or
-/// for coordinates that are not finite.
+/// Decomposes a mesh into convexes, each of which owns one connected, watertight piece of a shell
+/// in one of disjoint convex regions. The pieces add up to the mesh without the parts that are
+/// inside out. Regions inside the mesh have no visual mesh, and neither have pieces that are
+/// flat-shaded convexes without texture, as their polyhedra render alike. Regions that touch share
+/// plane ids and bonds; hulls that overlap (of different shells, or of islands in one region) get
+/// ghosts. Throws InputError if the options ask for more than kMostNodes, or have nodes that make
+/// more convexes than allowed or coordinates that are not finite.
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options = {});
 
-/// Voronoi nodes from a file: `x y z` a line, what follows a # is left out. Throws InputError
-/// naming `name` and the line.
+/// Reads Voronoi nodes from a file: `x y z` per line; text after a # is ignored. Throws InputError
+/// with `name` and the line.
 std::vector<Vec3> read_nodes(std::istream& in, const std::string& name);
 
 }  // namespace sunder::fracture

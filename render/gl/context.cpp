@@ -1,4 +1,4 @@
-// Which context is taken, and what it says of itself.
+// Selection and description of the OpenGL context.
 #include "render/gl/context.h"
 
 #include <charconv>
@@ -12,7 +12,7 @@ namespace {
 
 using Maker = std::function<std::unique_ptr<GlContext>()>;
 
-/// The index in "egl-device:N"; -1 if `wanted` is something else.
+/// Returns the index N of "egl-device:N", or -1 for any other text.
 int device_index(const std::string& wanted) {
   const std::string prefix = "egl-device:";
   if (!wanted.starts_with(prefix)) return -1;
@@ -23,7 +23,7 @@ int device_index(const std::string& wanted) {
   return error == std::errc() && stop == end && index >= 0 ? index : -1;
 }
 
-/// What `wanted` may be made by, best first; empty if it names nothing.
+/// Returns the functions that may make a `wanted` context, best first; empty for an unknown name.
 std::vector<Maker> makers(const std::string& wanted) {
   if (wanted == "egl-surfaceless") return {make_egl_surfaceless};
   if (wanted == "osmesa") return {make_osmesa};
@@ -49,7 +49,7 @@ std::vector<Maker> makers(const std::string& wanted) {
 
 }  // namespace
 
-void GlContext::adopt_table(const char* missing) {
+void GlContext::check_and_describe(const char* missing) {
   if (missing != nullptr) throw InputError(kind_ + ": the driver has no " + missing);
   GLint major = 0;
   GLint minor = 0;

@@ -1,4 +1,4 @@
-// EGL without a window: on a device (hardware or Mesa's software device), or Mesa's surfaceless
+// Windowless OpenGL contexts by EGL, on a hardware or software device or Mesa's surfaceless
 // platform.
 #include <cstring>
 #include <vector>
@@ -24,7 +24,7 @@ struct EglApi {
       library.find<PFNEGLDESTROYCONTEXTPROC>("eglDestroyContext");
   PFNEGLMAKECURRENTPROC make_current = library.find<PFNEGLMAKECURRENTPROC>("eglMakeCurrent");
   PFNEGLQUERYSTRINGPROC query_string = library.find<PFNEGLQUERYSTRINGPROC>("eglQueryString");
-  // Extensions; null where the driver is too old.
+  // Extension functions; null if the driver is too old.
   PFNEGLGETPLATFORMDISPLAYEXTPROC platform_display =
       extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   PFNEGLQUERYDEVICESEXTPROC query_devices =
@@ -69,10 +69,10 @@ class EglContext final : public GlContext {
     context_ = api_.create_context(display_, config, EGL_NO_CONTEXT, wanted);
     if (context_ == EGL_NO_CONTEXT) throw InputError(kind + ": no OpenGL 3.3 core context");
     make_current();
-    adopt(std::move(kind), api_.procedure);
+    load_functions(std::move(kind), api_.procedure);
   }
   ~EglContext() override {
-    // The display stays: it belongs to the process, other contexts may be on it.
+    // The display is not terminated: it is shared by all contexts of the process.
     api_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     api_.destroy_context(display_, context_);
   }
@@ -116,7 +116,7 @@ std::vector<bool> egl_devices_hardware() {
                          std::strstr(extensions, "EGL_MESA_device_software") == nullptr);
     }
   } catch (const InputError&) {
-    // No EGL: no devices; making a context will say why.
+    // Without EGL there are no devices; make_context() reports the reason.
   }
   return hardware;
 }

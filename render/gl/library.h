@@ -1,4 +1,4 @@
-// A shared library opened at run time, its symbols kept to itself.
+// A shared library opened at run time with local symbols.
 #pragma once
 
 #include <dlfcn.h>
@@ -9,15 +9,15 @@
 
 namespace sunder::render {
 
-/// Never closed again: drivers leave threads and exit handlers behind.
+/// A shared library that is never closed, because drivers leave threads and exit handlers behind.
 class Library {
  public:
-  /// Throws InputError naming the library if it is not there.
+  /// Opens a library. Throws InputError that names it on failure.
   explicit Library(const char* name) : handle_(::dlopen(name, RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr) throw InputError(std::string(name) + ": " + ::dlerror());
   }
 
-  /// Null if the library has no such symbol.
+  /// Returns a symbol, or null if the library does not have it.
   template <class Function>
   Function find(const char* symbol) const {
     return reinterpret_cast<Function>(::dlsym(handle_, symbol));

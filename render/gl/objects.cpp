@@ -22,7 +22,7 @@ GLuint compile(const GlTable& gl, const char* name, GLenum stage,
   throw InputError(std::string("the OpenGL driver refuses shader ") + name + ": " + log);
 }
 
-/// Binds a new texture of the given kind and leaves it bound.
+/// Makes a new 2D texture with the given filter, clamped to its edges, and leaves it bound.
 GLuint new_texture(const GlTable& gl, GLint filter) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
@@ -56,7 +56,7 @@ GLuint make_program(const GlTable& gl, const char* name,
   const GLuint block = gl.GetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) gl.UniformBlockBinding(program, block, 0);
   gl.UseProgram(program);
-  for (GLint unit = 0; const char* const sampler : kSamplers) {  // those it has not are passed over
+  for (GLint unit = 0; const char* const sampler : kSamplers) {  // GL ignores samplers not in use
     gl.Uniform1i(gl.GetUniformLocation(program, sampler), unit++);
   }
   return program;
@@ -67,7 +67,7 @@ void set_attributes(const GlTable& gl, GLuint first, std::size_t stride,
   for (GLuint index = first; const Attribute& attribute : attributes) {
     gl.EnableVertexAttribArray(index);
     gl.VertexAttribPointer(index++, attribute.floats, GL_FLOAT, GL_FALSE,
-                           static_cast<GLsizei>(stride), buffer_offset(start + attribute.place));
+                           static_cast<GLsizei>(stride), buffer_offset(start + attribute.offset));
   }
 }
 
@@ -95,7 +95,7 @@ GLuint make_shadow_texture(const GlTable& gl, int size) {
   const GLuint texture = new_texture(gl, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  // Nothing outside the map is in shadow: the texels of its rim would be drawn out into lines.
+  // The border is lit: clamping to the edge would stretch the outermost texels into lines.
   constexpr float kFarthest[] = {1, 1, 1, 1};
   gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, kFarthest);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);

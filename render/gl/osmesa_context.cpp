@@ -1,12 +1,12 @@
-// OSMesa: Mesa's software renderer drawing to plain memory, for machines without EGL. It left Mesa
-// in 25.1, so it is a fallback.
+// OpenGL contexts by OSMesa, Mesa's software renderer to memory, for machines without EGL.
+// Mesa 25.1 removed it, so it is a fallback.
 #include <cstdint>
 #include <vector>
 
 #include "render/gl/context.h"
 #include "render/gl/library.h"
 
-// osmesa.h wants the compatibility profile's gl.h; these few declarations are all that is used.
+// Declared here because osmesa.h includes gl.h of the compatibility profile.
 extern "C" {
 using OSMesaContext = struct osmesa_context*;
 }
@@ -42,7 +42,7 @@ class OsmesaGlContext final : public GlContext {
     context_ = api_.create(wanted, nullptr);
     if (context_ == nullptr) throw InputError("osmesa: no OpenGL 3.3 core context");
     make_current();
-    adopt("osmesa", api_.procedure);
+    load_functions("osmesa", api_.procedure);
   }
   ~OsmesaGlContext() override {
     api_.make_current(nullptr, nullptr, 0, 0, 0);
@@ -50,7 +50,7 @@ class OsmesaGlContext final : public GlContext {
   }
 
   void make_current() override {
-    // Everything is drawn to framebuffer objects; the context merely insists on a picture.
+    // All drawing is to framebuffer objects; this pixel is required but not used.
     if (api_.make_current(context_, pixel_, GL_UNSIGNED_BYTE, 1, 1) == 0) {
       throw InputError("osmesa: the context cannot be made current");
     }

@@ -1,5 +1,5 @@
-// The OpenGL 3.3 core functions that are used, filled per context at run time: no GL library is
-// linked, so EGL and OSMesa can live in one process without taking each other's symbols.
+// Table of the OpenGL 3.3 core functions in use, loaded per context at run time. No GL library is
+// linked, so EGL and OSMesa can be used in one process without symbol conflicts.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -38,7 +38,7 @@ namespace sunder::render {
   F(VIEWPORT, Viewport)
 // clang-format on
 
-/// One context's functions: `gl.Clear(...)` is glClear there.
+/// The functions of one context: `gl.Clear(...)` is its glClear.
 struct GlTable {
 #define SUNDER_GL_MEMBER(TYPE, NAME) PFNGL##TYPE##PROC NAME = nullptr;
   SUNDER_GL_FUNCTIONS(SUNDER_GL_MEMBER)
@@ -47,7 +47,7 @@ struct GlTable {
 
 using GlProcedure = void (*)();
 
-/// Fills the table from `procedure(name)`; the name of the first function missing, or null.
+/// Fills the table by `procedure(name)`. Returns the name of the first missing function, or null.
 template <class Procedure>
 const char* fill(GlTable& gl, const Procedure& procedure) {
   const char* missing = nullptr;

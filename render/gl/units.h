@@ -1,5 +1,4 @@
-// Which texture unit holds what: each texture stays on its own for good, and shaders call what
-// reads it by one name.
+// Texture units. A texture stays bound to its unit; its sampler has one name in all shaders.
 #pragma once
 
 namespace sunder::render {
@@ -19,7 +18,7 @@ enum Unit {
   kSumUnit
 };
 
-/// The samplers of unit 0, 1 and so on.
+/// Sampler names of units 0, 1 and so on, in the order of Unit.
 inline constexpr const char* kSamplers[] = {"shadow_map", "zenith_map", "slots",  "materials",
                                             "tiles",      "pictures",   "depths", "lights",
                                             "openness",   "occlusion",  "dust",   "sums"};

@@ -11,12 +11,12 @@
 namespace sunder::render {
 namespace {
 
-constexpr std::uint8_t kFaintest = 12;  // contrast below which nothing is an edge, of 255
-constexpr std::uint8_t kRelative = 8;   // and below this part of the brightest neighbour
-constexpr int kReach = 16;              // how far an edge is followed, in pixels
+constexpr std::uint8_t kMinContrast = 12;        // least contrast of an edge, of 255
+constexpr std::uint8_t kMinContrastDivisor = 8;  // least contrast: brightest neighbour / this
+constexpr int kMaxEdgeSearch = 16;  // greatest distance to the end of an edge, in pixels
 constexpr std::size_t kRowsPerChunk = 16;
 
-/// Brightness of every pixel, with a border so that neighbours always exist.
+/// Brightness of every pixel, with a border of one pixel so that all neighbours exist.
 class Luma {
  public:
   Luma(std::span<const std::uint32_t> pixels, int width, int height)
@@ -47,8 +47,7 @@ class Luma {
   std::vector<std::uint8_t> values_;
 };
 
-/// Marks the pixels of a row that may be on an edge: plain enough for the compiler to do many at
-/// once.
+/// Marks the pixels of a row that may be on an edge; simple enough for the compiler to vectorise.
 void mark_edges(const std::uint8_t* luma, int stride, int width, std::uint8_t* marks) {
   for (int x = 0; x < width; ++x) {
     const std::uint8_t* l = luma + x;
@@ -56,27 +55,27 @@ void mark_edges(const std::uint8_t* luma, int stride, int width, std::uint8_t* m
         std::max(std::max(std::max(l[-stride], l[stride]), l[0]), std::max(l[-1], l[1]));
     const std::uint8_t low =
         std::min(std::min(std::min(l[-stride], l[stride]), l[0]), std::min(l[-1], l[1]));
-    const auto least = std::max<std::uint8_t>(kFaintest, high / kRelative);
+    const auto least = std::max<std::uint8_t>(kMinContrast, high / kMinContrastDivisor);
     marks[x] = static_cast<std::uint8_t>(high - low) >= least;
   }
 }
 
-/// Which neighbour to blend with, as a step in luma and in pixels, and how much, of 256.
+/// The neighbour of a pixel to blend with, as an offset in pixels, and its share, of 256.
 struct Blend {
   int dx = 0;
   int dy = 0;
   int share = 0;
 };
 
-/// How far the edge between a pixel and its neighbour across runs, and how its mean brightness
-/// changes where it ends.
-struct End {
-  int distance;
-  int change;  ///< 0 if it goes on out of reach.
+/// The end of an edge between two rows or columns of pixels, in one direction.
+struct EdgeEnd {
+  int distance;  ///< Distance to the end, in pixels.
+  int change;    ///< Change of twice the mean brightness at the end; 0 if it is out of reach.
 };
 
-End follow(const std::uint8_t* at, int across, int step, int room, int mean2, int least2) {
-  const int reach = std::min(kReach, room);
+EdgeEnd find_edge_end(const std::uint8_t* at, int across, int step, int available, int mean2,
+                      int least2) {
+  const int reach = std::min(kMaxEdgeSearch, available);
   for (int i = 1; i <= reach; ++i) {
     const int change = at[i * step] + at[i * step + across] - mean2;
     if (std::abs(change) >= least2) return {i, change};
@@ -95,7 +94,7 @@ Blend blend_at(const Luma& luma, int x, int y, int width, int height) {
       std::abs(nw + sw - 2 * w) + 2 * std::abs(n + d - 2 * m) + std::abs(ne + se - 2 * e);
   const int bend_x =
       std::abs(nw + ne - 2 * n) + 2 * std::abs(w + e - 2 * m) + std::abs(sw + se - 2 * d);
-  const bool level = bend_y >= bend_x;  // the edge runs left to right
+  const bool level = bend_y >= bend_x;  // true if the edge is horizontal
   const int before = level ? n : w;
   const int after = level ? d : e;
   const bool backwards = std::abs(before - m) >= std::abs(after - m);
@@ -104,26 +103,27 @@ Blend blend_at(const Luma& luma, int x, int y, int width, int height) {
   const int other = backwards ? before : after;
   const int along = level ? 1 : s;
 
-  // Follow the edge both ways; the nearer end tells which side of the stair this pixel is on.
+  // The nearer end of the edge decides on which side of the stair step this pixel is.
   const int mean2 = m + other;
   const int least2 = std::max(1, std::abs(other - m) / 2);
-  const End back = follow(l, across, -along, level ? x : y, mean2, least2);
-  const End ahead = follow(l, across, along, level ? width - 1 - x : height - 1 - y, mean2, least2);
-  const End& nearer = back.distance < ahead.distance ? back : ahead;
+  const EdgeEnd back = find_edge_end(l, across, -along, level ? x : y, mean2, least2);
+  const EdgeEnd ahead =
+      find_edge_end(l, across, along, level ? width - 1 - x : height - 1 - y, mean2, least2);
+  const EdgeEnd& nearer = back.distance < ahead.distance ? back : ahead;
   int share = 0;
   if (nearer.change != 0 && (nearer.change < 0) != (2 * m - mean2 < 0)) {
     share = 128 - 256 * nearer.distance / (back.distance + ahead.distance);
   }
 
-  // A pixel that stands out alone is no stair: soften it towards its surroundings.
+  // An isolated pixel is not part of an edge and is blended with its surroundings.
   const int around = (2 * (n + d + e + w) + nw + ne + sw + se) / 12;
-  const int alone = std::min(256, 256 * std::abs(around - m) / (high - low));
-  const int softened = alone * alone / 256 * (3 * 256 - 2 * alone) / 256;
+  const int isolation = std::min(256, 256 * std::abs(around - m) / (high - low));
+  const int softened = isolation * isolation / 256 * (3 * 256 - 2 * isolation) / 256;
   share = std::max(share, softened * softened / 256 * 150 / 256);
   return {level ? 0 : sign, level ? sign : 0, std::clamp(share, 0, 128)};
 }
 
-/// Copies a row without its alpha; the fourth byte of each pixel is overwritten by the next.
+/// Copies a row without its alpha; the fourth byte of each pixel is overwritten by the next pixel.
 void copy_rgb(const std::uint32_t* in, int width, std::uint8_t* out) {
   for (int x = 0; x + 1 < width; ++x) std::memcpy(out + 3 * x, in + x, 4);
   std::memcpy(out + 3 * (width - 1), in + width - 1, 3);
@@ -131,7 +131,7 @@ void copy_rgb(const std::uint32_t* in, int width, std::uint8_t* out) {
 
 }  // namespace
 
-Image antialiased(std::span<const std::uint32_t> pixels, int width, int height) {
+Image apply_fxaa(std::span<const std::uint32_t> pixels, int width, int height) {
   const auto columns = static_cast<std::size_t>(width);
   const auto rows = static_cast<std::size_t>(height);
   SUNDER_CHECK(pixels.size() == columns * rows);

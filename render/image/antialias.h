@@ -1,4 +1,4 @@
-// Smooths the stairs of edges in a finished picture.
+// Anti-aliasing of a finished image.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace sunder::render {
 
-/// Fast approximate anti-aliasing (Lottes, "FXAA", 2009): finds edges by their brightness, follows
-/// each to its ends and blends its pixels by where on the stair they are. On the processor: few
-/// pixels are on edges, and a software GL driver would run the shader on all of them. A pixel is
-/// red, green, blue and its brightness, from the lowest byte up.
-Image antialiased(std::span<const std::uint32_t> pixels, int width, int height);
+/// Applies fast approximate anti-aliasing (Lottes, "FXAA", 2009): finds edges by brightness,
+/// searches their ends and blends pixels by their position on the stair step. Runs on the CPU,
+/// because few pixels are on edges, while a software GL driver would run a shader on all. A pixel
+/// holds red, green, blue and brightness, from the lowest byte up.
+Image apply_fxaa(std::span<const std::uint32_t> pixels, int width, int height);
 
 }  // namespace sunder::render

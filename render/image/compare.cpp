@@ -1,6 +1,6 @@
-// Bytes first; then FLIP for what the eye notices overall and a window count for small faults.
-// Neither alone suffices (docs/decisions: golden images): FLIP's mean ranks a missing piece below
-// noise, a count of pixels does not see a change in brightness.
+// Compares bytes first, then the mean FLIP error for overall differences and a count of differing
+// pixels in a window for local ones. Neither alone suffices (docs/decisions: golden images): the
+// FLIP mean ranks a missing piece below noise, and a count of pixels misses a change in brightness.
 #include "render/image/compare.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace {
 constexpr int kWindow = 32;
 constexpr int kLevels = 8;
 
-/// Finds the window of kWindow x kWindow with the most pixels that differ by more than kLevels.
+/// Finds the window of kWindow x kWindow pixels with the most that differ by more than kLevels.
 void find_worst_window(const Image& a, const Image& b, Difference& difference) {
-  // sums(x, y) counts the differing pixels left of x and above y.
+  // sum(x, y) is the number of differing pixels left of x and above y.
   const auto stride = static_cast<std::size_t>(a.width) + 1;
   std::vector<int> sums(stride * (static_cast<std::size_t>(a.height) + 1));
   const auto sum = [&](int x, int y) -> int& {
@@ -44,7 +44,7 @@ void find_worst_window(const Image& a, const Image& b, Difference& difference) {
   }
 }
 
-/// Black through red and yellow to white, so that faint errors are still seen.
+/// Colours errors from black through red and yellow to white, so that small ones are visible.
 Image heat_map(const Image& like, const std::vector<float>& errors) {
   Image heat{like.width, like.height, {}};
   heat.rgb.reserve(3 * errors.size());

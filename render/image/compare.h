@@ -1,4 +1,4 @@
-// Whether two images look the same (golden tests).
+// Comparison of two images (golden tests).
 #pragma once
 
 #include "render/image/image.h"
@@ -7,17 +7,17 @@ namespace sunder::render {
 
 struct Thresholds {
   double flip_mean = 0.01;
-  int window_pixels = 24;  ///< Pixels off by more than 8 levels in any 32x32 window.
+  int window_pixels = 24;  ///< Pixels that differ by more than 8 levels in any 32x32 window.
 };
 
 struct Difference {
   bool same_bytes = false;
   bool same_size = false;
-  double flip_mean = 0;  ///< FLIP (Andersson et al. 2020), LDR, mean error.
-  int worst_window_pixels = 0;
-  int worst_window_x = 0;  ///< Its left and top.
-  int worst_window_y = 0;
-  Image heat_map;  ///< Of the FLIP error; empty if same_bytes or not same_size.
+  double flip_mean = 0;         ///< Mean LDR-FLIP error (Andersson et al. 2020).
+  int worst_window_pixels = 0;  ///< Differing pixels in the 32x32 window that has most of them.
+  int worst_window_x = 0;       ///< Left of that window.
+  int worst_window_y = 0;       ///< Top of that window.
+  Image heat_map;               ///< Map of the FLIP error; empty if same_bytes or not same_size.
 
   bool passes(const Thresholds& thresholds) const {
     return same_bytes || (same_size && flip_mean <= thresholds.flip_mean &&

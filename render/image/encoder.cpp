@@ -1,5 +1,5 @@
-// ffmpeg as a child process, started without a shell. Its input is a socket rather than a pipe, so
-// that writing to a dead child is an error instead of SIGPIPE.
+// Runs ffmpeg as a child process, started without a shell. Its input is a socket rather than a
+// pipe, so that writing after its end is an error instead of SIGPIPE.
 #include "render/image/encoder.h"
 
 #include <fcntl.h>
@@ -31,7 +31,7 @@ void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Colours are turned into those of BT.709, and the file says so: players guess otherwise.
+/// Returns the command line. Colours are BT.709 and the file is tagged so: players guess otherwise.
 Words arguments(const std::filesystem::path& file, bool webm, int width, int height,
                 int frames_per_s) {
   Words words = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y"};
@@ -53,12 +53,12 @@ Words arguments(const std::filesystem::path& file, bool webm, int width, int hei
   return words;
 }
 
-/// Starts the program with `input` as standard input and `log` as both outputs; 0 or an errno.
+/// Starts a program with the given standard input and output (also error). Returns 0 or an errno.
 int spawn(std::vector<std::string> words, int input, int log, int& pid) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  posix_spawnattr_t attributes;  // a group of its own: Ctrl-C is for us to decide on
+  posix_spawnattr_t attributes;  // own process group, so that Ctrl-C reaches this program alone
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawn_file_actions_t actions;
@@ -116,7 +116,7 @@ Encoder::Encoder(const std::filesystem::path& path, int width, int height, int f
 Encoder::~Encoder() {
   if (pid_ > 0) {
     ::kill(pid_, SIGKILL);
-    wait();
+    close_and_wait();
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
   }
@@ -133,21 +133,21 @@ void Encoder::add(const Image& image) {
     if (n < 0) fail();
     sent += static_cast<std::size_t>(n);
   }
-  if (has_complained()) fail();
+  if (has_error_output()) fail();
 }
 
 void Encoder::finish() {
-  if (!wait() || has_complained()) fail();
+  if (!close_and_wait() || has_error_output()) fail();
   replace_file(temporary_, path_);
 }
 
-/// True if ffmpeg has said anything. At a full disk it says so, goes on, and ends with 0.
-bool Encoder::has_complained() const {
+/// Returns true if ffmpeg has written any output: on a full disk it reports that but ends with 0.
+bool Encoder::has_error_output() const {
   struct stat log = {};
   return ::fstat(log_, &log) == 0 && log.st_size > 0;
 }
 
-bool Encoder::wait() {
+bool Encoder::close_and_wait() {
   close_once(input_);
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
@@ -157,7 +157,7 @@ bool Encoder::wait() {
 }
 
 void Encoder::fail() {
-  if (pid_ > 0) wait();
+  if (pid_ > 0) close_and_wait();
   std::error_code ignored;
   std::filesystem::remove(temporary_, ignored);
   std::array<char, 2000> words = {};

@@ -1,4 +1,4 @@
-// Video through the ffmpeg program: raw pictures go in by a socket, a file comes out.
+// Video encoding by the ffmpeg program, which gets raw images through a socket.
 #pragma once
 
 #include <filesystem>
@@ -7,25 +7,25 @@
 
 namespace sunder::render {
 
-/// An MP4 (H.264) or, by its name, a WebM (VP9) being made, of yuv420p; nothing stands at `path`
-/// until finish() returns.
+/// Encodes an MP4 (H.264) or, by the extension of the path, a WebM (VP9), in yuv420p. The file
+/// exists at `path` only after finish().
 class Encoder {
  public:
-  /// Starts ffmpeg. Throws InputError if it is missing (naming the package) or the size is odd.
+  /// Starts ffmpeg. Throws InputError if ffmpeg is missing (naming the package) or the size is odd.
   Encoder(const std::filesystem::path& path, int width, int height, int frames_per_s);
-  /// An unfinished video is given up: ffmpeg is ended and its file removed.
+  /// Kills ffmpeg and removes its file if the video is not finished.
   ~Encoder();
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  /// Throws FileError with ffmpeg's own words if it has any, or stopped.
+  /// Appends a frame. Throws FileError with ffmpeg's error output, or if ffmpeg stopped.
   void add(const Image& image);
   void finish();
 
  private:
-  /// Ends the input, waits, and tells whether ffmpeg was content.
-  bool wait();
-  bool has_complained() const;
+  /// Closes the input and waits for ffmpeg to end. Returns true if it succeeded.
+  bool close_and_wait();
+  bool has_error_output() const;
   [[noreturn]] void fail();
 
   std::filesystem::path path_;
@@ -34,7 +34,7 @@ class Encoder {
   int height_;
   int pid_ = -1;
   int input_ = -1;
-  int log_ = -1;  ///< What ffmpeg said: a file in memory, so that it can never block.
+  int log_ = -1;  ///< Output of ffmpeg: a file in memory, so that writing to it never blocks.
 };
 
 }  // namespace sunder::render

@@ -1,5 +1,4 @@
-// The layout is that of "OpenEXR File Layout" (openexr.com): a header of attributes, a table of
-// where each row is, and the rows.
+// Layout by "OpenEXR File Layout" (openexr.com): attributes, table of row offsets, rows.
 #include "render/image/exr.h"
 
 #include <cstdint>
@@ -13,13 +12,13 @@ namespace {
 
 constexpr std::int32_t kMagic = 20000630, kVersion = 2, kFloat = 2;
 
-/// Text with a zero at its end.
+/// Writes a zero-terminated text.
 void put_name(ByteWriter& out, std::string_view name) {
   for (const char c : name) out.put(c);
   out.put('\0');
 }
 
-/// An attribute of the header with these values one after another.
+/// Writes an attribute of the header with these values in order.
 template <class... Values>
 void put_attribute(ByteWriter& out, std::string_view name, std::string_view type,
                    const Values&... values) {

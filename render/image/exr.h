@@ -1,4 +1,4 @@
-// Figures of pixels as OpenEXR files, which other programs read as they are.
+// Writing of OpenEXR files.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace sunder::render {
 
-/// Writes one channel, Y, which every reader knows, of 32-bit floats, not packed; top row first.
-/// Writes to a temporary name and renames. Throws FileError if the place cannot be written.
+/// Writes one channel "Y" of uncompressed 32-bit floats, top row first, under a temporary name, and
+/// renames the file. Throws FileError if that fails.
 void write_exr(const std::filesystem::path& path, const std::vector<float>& values, int width,
                int height);
 

@@ -1,5 +1,5 @@
-// The two pipelines of FLIP: colour (what a blurred eye sees) and features (edges and points).
-// Section numbers are the paper's.
+// The two pipelines of FLIP: colour (after spatial filtering by the eye) and features (edges and
+// points). Section numbers refer to the paper.
 #include "render/image/flip.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr float kPixelsPerDegree = 67.02f;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr std::size_t kRowsAChunk = 16;
 
-/// One value a pixel.
+/// One value per pixel.
 struct Plane {
   std::size_t width = 0;
   std::size_t height = 0;
@@ -38,7 +38,7 @@ Kernel make_kernel(int radius, const Weight& weight) {
   return kernel;
 }
 
-/// Positive weights sum to 1, negative ones to −1.
+/// Scales a kernel so that its positive weights sum to 1 and its negative ones to −1.
 Kernel normalized(Kernel kernel) {
   float positive = 0;
   float negative = 0;
@@ -47,7 +47,7 @@ Kernel normalized(Kernel kernel) {
   return kernel;
 }
 
-/// `plane` convolved with `along_x`, then `along_y`; the border is continued outwards.
+/// Returns `plane` convolved with `along_x`, then `along_y`; border values are repeated outside.
 Plane convolved(const Plane& plane, const Kernel& along_x, const Kernel& along_y) {
   const std::size_t w = plane.width;
   const std::size_t h = plane.height;
@@ -81,7 +81,7 @@ Plane convolved(const Plane& plane, const Kernel& along_x, const Kernel& along_y
   return result;
 }
 
-// Colour spaces, relative to the D65 white that linear RGB (1, 1, 1) is.
+// Colour spaces, relative to D65 white, which is linear RGB (1, 1, 1).
 
 float linear_of_srgb(std::uint8_t byte) {
   const float c = static_cast<float>(byte) / 255.0f;
@@ -100,7 +100,7 @@ const Mat3f& xyz_of_rgb() {
   return matrix;
 }
 
-/// The opponent space in which the eye blurs (3.2): luma, red-green, blue-yellow.
+/// Converts to the opponent space of the spatial filter (3.2): luma, red-green, blue-yellow.
 Vec3f opponent_of_rgb(const Vec3f& rgb) {
   const Vec3f xyz = xyz_of_rgb() * rgb;
   return Vec3f(116 * xyz.y() - 16, 500 * (xyz.x() - xyz.y()), 200 * (xyz.y() - xyz.z()));
@@ -112,7 +112,7 @@ Vec3f rgb_of_opponent(const Vec3f& opponent) {
   return back * Vec3f(y + opponent.y() / 500, y, y - opponent.z() / 200);
 }
 
-/// CIELAB with the Hunt effect: dark colours differ less (3.3).
+/// Converts to CIELAB with the Hunt effect: dark colours differ less (3.3).
 Vec3f hunt_lab_of_rgb(const Vec3f& rgb) {
   constexpr float kDelta = 6.0f / 29;
   const auto curve = [](float t) {
@@ -146,7 +146,7 @@ Planes opponent_planes(const Image& image) {
   return planes;
 }
 
-/// The eye's blur of one channel: a sum of Gaussians a·√(π/b)·exp(−π²x²/b), x in degrees (3.2).
+/// The eye's spatial filter of a channel (3.2): Gaussians a·√(π/b)·exp(−π²x²/b), x in degrees.
 struct Blur {
   struct Term {
     float a;
@@ -156,7 +156,7 @@ struct Blur {
 };
 
 Plane blurred(const Plane& plane, const Blur& blur) {
-  constexpr float kWidest = 0.04f;  // the largest b of all channels decides every radius
+  constexpr float kWidest = 0.04f;  // the greatest b of all channels, which sets the radius
   const int radius =
       static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * kPixelsPerDegree));
   std::vector<Plane> parts;
@@ -183,8 +183,8 @@ Plane blurred(const Plane& plane, const Blur& blur) {
   return result;
 }
 
-/// What the blurred eye sees of every pixel, in the Hunt-adjusted CIELAB.
-std::vector<Vec3f> seen_colors(const Planes& opponent) {
+/// Returns the spatially filtered colour of every pixel, in Hunt-adjusted CIELAB.
+std::vector<Vec3f> perceived_colors(const Planes& opponent) {
   static const Blur kBlurs[3] = {
       {{{1, 0.0047f}}}, {{{1, 0.0053f}}}, {{{34.1f, 0.04f}, {13.5f, 0.025f}}}};
   const Planes b = {blurred(opponent[0], kBlurs[0]), blurred(opponent[1], kBlurs[1]),
@@ -199,7 +199,7 @@ std::vector<Vec3f> seen_colors(const Planes& opponent) {
   return colors;
 }
 
-/// A colour distance as an error in [0, 1]: small ones spread, the largest compressed (3.4).
+/// Maps a colour distance to an error in [0, 1], with small distances spread (3.4).
 float color_error(float distance) {
   constexpr float kExponent = 0.7f;
   constexpr float kKnee = 0.4f;
@@ -216,7 +216,7 @@ struct Features {
   std::vector<float> points;
 };
 
-/// Strength of edges and points in the luma, 0.082 degrees wide (3.5).
+/// Returns the strength of edges and points of 0.082 degrees width in the luma (3.5).
 Features features(const Plane& luma) {
   const float sigma = 0.5f * 0.082f * kPixelsPerDegree;
   const int radius = static_cast<int>(std::ceil(3 * sigma));
@@ -249,8 +249,8 @@ std::vector<float> flip_errors(const Image& reference, const Image& actual) {
   SUNDER_CHECK(reference.width == actual.width && reference.height == actual.height);
   const Planes opponent_r = opponent_planes(reference);
   const Planes opponent_a = opponent_planes(actual);
-  const std::vector<Vec3f> color_r = seen_colors(opponent_r);
-  const std::vector<Vec3f> color_a = seen_colors(opponent_a);
+  const std::vector<Vec3f> color_r = perceived_colors(opponent_r);
+  const std::vector<Vec3f> color_a = perceived_colors(opponent_a);
   const Features feature_r = features_of_opponent(opponent_r);
   const Features feature_a = features_of_opponent(opponent_a);
 

@@ -1,4 +1,4 @@
-// What is special in the page of golden_report(), compiled in as strings (sunder_embed).
+// The style sheet and script of the page of golden_report(), embedded as strings (sunder_embed).
 #pragma once
 
 namespace sunder::render::golden_page {

@@ -1,5 +1,4 @@
-// Sections of pictures; golden_report.css and .js hold what is special in their style, and the
-// script.
+// Generates the HTML; golden_report.css and golden_report.js hold the style and the script.
 #include "render/image/golden_report.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ std::string figure(const char* kind, const char* caption, const Image& image) {
          "</figcaption></figure>\n";
 }
 
-std::string figures_table(const GoldenPicture& picture) {
+std::string figures_table(const GoldenResult& picture) {
   const Difference& d = picture.difference;
   const Thresholds& limits = picture.thresholds;
   const auto number = [](double value) {
@@ -49,7 +48,7 @@ std::string mode_switch(std::size_t number) {
          "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" step=\"0.2\" hidden></p>\n";
 }
 
-std::string section(const GoldenPicture& picture, std::size_t number) {
+std::string section(const GoldenResult& picture, std::size_t number) {
   const bool comparable = !picture.reference.rgb.empty() && !picture.difference.same_bytes &&
                           picture.difference.same_size;
   std::string html = std::string("<section class=\"") + (picture.passed ? "pass" : "fail") +
@@ -62,18 +61,18 @@ std::string section(const GoldenPicture& picture, std::size_t number) {
   html += figure("heat", "FLIP error", picture.difference.heat_map) + "</div>\n";
   if (!picture.runs.empty()) html += html_table({"simulated", "frames"}, picture.runs);
   if (!picture.passed) {
-    html += "<p>If this is right: <code>" + escaped(picture.accept_by) + "</code></p>\n";
+    html += "<p>If this is right: <code>" + escaped(picture.accept_command) + "</code></p>\n";
   }
-  return html + "<p>Remade by <code>" + escaped(picture.remade_by) + "</code><br>Drawn by " +
+  return html + "<p>Remade by <code>" + escaped(picture.remake_command) + "</code><br>Drawn by " +
          escaped(picture.renderer) + "</p>\n</section>\n";
 }
 
 }  // namespace
 
-std::string golden_report(std::span<const GoldenPicture> pictures) {
-  std::vector<const GoldenPicture*> order;
-  for (const GoldenPicture& picture : pictures) order.push_back(&picture);
-  std::stable_sort(order.begin(), order.end(), [](const GoldenPicture* a, const GoldenPicture* b) {
+std::string golden_report(std::span<const GoldenResult> pictures) {
+  std::vector<const GoldenResult*> order;
+  for (const GoldenResult& picture : pictures) order.push_back(&picture);
+  std::stable_sort(order.begin(), order.end(), [](const GoldenResult* a, const GoldenResult* b) {
     return !a->passed && b->passed;
   });
   std::string sections;

@@ -1,4 +1,4 @@
-// The page that shows what golden-image tests saw.
+// The HTML report of golden-image tests.
 #pragma once
 
 #include <span>
@@ -10,23 +10,23 @@
 
 namespace sunder::render {
 
-/// One golden test: its baseline, what is drawn now, how they differ, and what was simulated.
-struct GoldenPicture {
+/// One golden test: its reference image, the image drawn now, their difference and the runs.
+struct GoldenResult {
   std::string name;
   bool passed = false;
-  std::string verdict;  ///< In words.
-  Image reference;      ///< Empty if there is no baseline yet.
+  std::string verdict;  ///< Result as a sentence.
+  Image reference;      ///< Empty if there is no reference yet.
   Image actual;
   Difference difference;
   Thresholds thresholds;
-  std::string remade_by;  ///< The command that makes the subject and its baseline.
-  std::string accept_by;  ///< The command that makes `actual` the baseline.
-  std::string renderer;   ///< That drew `actual`.
-  std::vector<std::vector<Cell>> runs = {};  ///< What was simulated, and what came of it.
+  std::string remake_command;  ///< Command that runs the test again and draws its reference.
+  std::string accept_command;  ///< Command that makes `actual` the reference.
+  std::string renderer;        ///< Description of the renderer that drew `actual`.
+  std::vector<std::vector<Cell>> runs = {};  ///< Simulations and their results, a row each.
 };
 
-/// One self-contained HTML page, failures first: both pictures and the map of the FLIP error side
-/// by side, under a slider, or swapped in place; a magnifier; figures against their thresholds.
-std::string golden_report(std::span<const GoldenPicture> pictures);
+/// Returns a self-contained HTML page, failures first: for each test both images and the FLIP error
+/// map side by side, under a slider or alternating; a magnifier; figures and their thresholds.
+std::string golden_report(std::span<const GoldenResult> pictures);
 
 }  // namespace sunder::render

@@ -11,9 +11,9 @@ namespace sunder::render {
 namespace {
 
 constexpr int kScale = 2;
-constexpr int kMargin = 9;  // in the font's pixels
+constexpr int kMargin = 9;  // in pixels of the font
 
-/// A corner of stb's rectangles.
+/// A corner of a rectangle, in the layout of stb_easy_font.
 struct Corner {
   float x, y, z;
   std::uint8_t color[4];

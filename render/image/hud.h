@@ -1,4 +1,4 @@
-// Words in the corner of a picture.
+// Text in the corner of an image.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace sunder::render {
 
-/// Frame number, time and counts of `frame`, a line each.
+/// Returns the frame number and time, and the counts of `frame`, in two lines.
 std::string hud_text(const Frame& frame);
-/// Writes ASCII text, top left, white with a shadow.
+/// Draws ASCII text at the top left, white with a shadow.
 void draw_text(Image& image, const std::string& text);
 
 }  // namespace sunder::render

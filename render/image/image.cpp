@@ -1,4 +1,4 @@
-// PNG files, and pictures, by stb; the one place that holds stb's code.
+// Images by the stb libraries, whose code is compiled in this file alone.
 #include "render/image/image.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace sunder::render {
 namespace {
 
 constexpr int kChannels = 3;
-constexpr int kMostPixels = 16384;  // a side, of a picture
+constexpr int kMaxDecodedSide = 16384;  // greatest width and height of a decoded picture
 
 void append(void* bytes, void* data, int size) {
   const auto* begin = static_cast<const std::uint8_t*>(data);
@@ -33,18 +33,18 @@ void append(void* bytes, void* data, int size) {
 
 using Pixels = std::unique_ptr<stbi_uc, void (*)(void*)>;
 
-void keep(const Pixels& pixels, Image& image) {
+void copy_pixels(const Pixels& pixels, Image& image) {
   const std::size_t size =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * kChannels;
   image.rgb.assign(pixels.get(), pixels.get() + size);
 }
 
-/// Highest byte first, as PNG has it.
-void put(std::vector<std::uint8_t>& out, std::uint64_t number, int bytes) {
+/// Appends a number, highest byte first (big-endian, as in PNG).
+void put_big_endian(std::vector<std::uint8_t>& out, std::uint64_t number, int bytes) {
   while (bytes-- > 0) out.push_back(static_cast<std::uint8_t>(number >> (8 * bytes)));
 }
 
-/// The sum that ends a chunk (ISO 15948, annex D).
+/// Returns the CRC of a chunk (ISO 15948, annex D).
 std::uint32_t crc(std::span<const std::uint8_t> bytes) {
   std::uint32_t sum = 0xffffffff;
   for (const std::uint8_t byte : bytes) {
@@ -56,15 +56,15 @@ std::uint32_t crc(std::span<const std::uint8_t> bytes) {
 
 void put_chunk(std::vector<std::uint8_t>& out, const std::string& kind,
                std::span<const std::uint8_t> content) {
-  put(out, content.size(), 4);
+  put_big_endian(out, content.size(), 4);
   const std::size_t summed = out.size();
   out.insert(out.end(), kind.begin(), kind.end());
   out.insert(out.end(), content.begin(), content.end());
-  put(out, crc(std::span(out).subspan(summed)), 4);
+  put_big_endian(out, crc(std::span(out).subspan(summed)), 4);
 }
 
-/// Rows as differences from those above them, packed.
-std::vector<std::uint8_t> packed_rows(const DeepImage& image) {
+/// Returns the compressed rows, each filtered as the difference from the row above ("Up").
+std::vector<std::uint8_t> packed_rows(const Image16& image) {
   constexpr std::uint8_t kUp = 2;
   const auto row = static_cast<std::size_t>(image.width * image.channels);
   std::vector<std::uint8_t> above(2 * row), rows;
@@ -103,7 +103,7 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
     rgba.push_back(image.alpha[i]);
   }
   const int channels = is_opaque ? kChannels : kChannels + 1;
-  // Differences from the left, and less of a search: a third less time, and no larger.
+  // Filter "Sub" and a lower compression level: a third less time, and files no larger.
   stbi_write_force_png_filter = 1;
   stbi_write_png_compression_level = 5;
   std::vector<std::uint8_t> bytes;
@@ -119,12 +119,12 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   write_file(path, std::as_bytes(std::span(bytes)));
 }
 
-void write_png(const std::filesystem::path& path, const DeepImage& image) {
+void write_png(const std::filesystem::path& path, const Image16& image) {
   SUNDER_CHECK(image.channels == 1 || image.channels == 3);
   std::vector<std::uint8_t> bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   std::vector<std::uint8_t> head;
-  put(head, static_cast<std::uint64_t>(image.width), 4);
-  put(head, static_cast<std::uint64_t>(image.height), 4);
+  put_big_endian(head, static_cast<std::uint64_t>(image.width), 4);
+  put_big_endian(head, static_cast<std::uint64_t>(image.height), 4);
   head.insert(head.end(), {16, image.channels == 1 ? std::uint8_t{0} : std::uint8_t{2}, 0, 0, 0});
   put_chunk(bytes, "IHDR", head);
   for (const auto& [key, word] : image.words) {
@@ -144,7 +144,7 @@ Image read_png(const std::filesystem::path& path) {
   const Pixels pixels(stbi_load(path.c_str(), &image.width, &image.height, &channels, kChannels),
                       stbi_image_free);
   if (!pixels) throw InputError(path.string() + ": not a readable PNG: " + stbi_failure_reason());
-  keep(pixels, image);
+  copy_pixels(pixels, image);
   return image;
 }
 
@@ -159,12 +159,12 @@ Image decode_picture(std::span<const std::byte> bytes) {
   int channels = 0;
   if (stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0)
     refuse(stbi_failure_reason());
-  if (std::max(image.width, image.height) > kMostPixels) refuse("it is too large");
+  if (std::max(image.width, image.height) > kMaxDecodedSide) refuse("it is too large");
   const Pixels pixels(
       stbi_load_from_memory(data, size, &image.width, &image.height, &channels, kChannels),
       stbi_image_free);
   if (!pixels) refuse(stbi_failure_reason());
-  keep(pixels, image);
+  copy_pixels(pixels, image);
   return image;
 }
 

@@ -1,4 +1,4 @@
-// Pixels, and PNG files of them.
+// Images in memory, and PNG and JPEG files.
 #pragma once
 
 #include <cstddef>
@@ -11,45 +11,47 @@
 
 namespace sunder::render {
 
-/// 8-bit sRGB, three bytes a pixel, top row first.
+/// An image in 8-bit sRGB, three bytes per pixel, top row first.
 struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
-  std::vector<std::uint8_t> alpha = {};  ///< A byte a pixel, not multiplied in; empty: opaque.
+  std::vector<std::uint8_t> alpha = {};  ///< One byte per pixel, not premultiplied; empty: opaque.
 
   bool operator==(const Image&) const = default;
 };
 
-/// Figures of pixels, 16 bits a channel, of which there are one or three; top row first.
-struct DeepImage {
+/// An image of one or three channels of 16 bits, top row first.
+struct Image16 {
   int width = 0;
   int height = 0;
   int channels = 1;
   std::vector<std::uint16_t> values;
-  std::vector<std::pair<std::string, std::string>> words = {};  ///< ASCII: keys and what they say.
+  std::vector<std::pair<std::string, std::string>> words = {};  ///< ASCII metadata: key, value.
 };
 
-/// A layer of a picture, by name: depth, depth_m, normals or ids.
+/// A data layer of an image, by name: depth, depth_m, normals or ids.
 struct Layer {
   std::string name;
-  DeepImage image;            ///< Empty if the layer is in metres:
-  std::vector<float> metres;  ///< Along the view, top row first; infinite where nothing is.
+  Image16 image;              ///< Empty for depth_m.
+  std::vector<float> metres;  ///< depth_m: distance along the view, top row first; may be infinite.
 };
 
-/// Of pixels as red, green, blue, and alpha or something else, from the lowest byte up.
+/// Converts packed pixels: red, green, blue and, if `has_alpha`, alpha, from the lowest byte up.
 Image unpacked(std::span<const std::uint32_t> pixels, int width, int height, bool has_alpha);
 
-/// The bytes of a PNG file.
+/// Returns the bytes of a PNG file.
 std::vector<std::uint8_t> encode_png(const Image& image);
-/// Writes to a temporary name and renames; throws FileError if the place cannot be written.
+/// Writes a PNG file under a temporary name and renames it. Throws FileError if that fails.
 void write_png(const std::filesystem::path& path, const Image& image);
-/// The same, with the words in chunks of text.
-void write_png(const std::filesystem::path& path, const DeepImage& image);
-/// Throws InputError if there is no readable PNG at `path`; its alpha is not read.
+/// Writes a PNG file of 16 bits per channel with the metadata as tEXt chunks, under a temporary
+/// name, and renames it. Throws FileError if that fails.
+void write_png(const std::filesystem::path& path, const Image16& image);
+/// Reads a PNG file without its alpha. Throws InputError if that fails.
 Image read_png(const std::filesystem::path& path);
 
-/// A PNG or JPEG in memory. Throws InputError if it is neither, or too large.
+/// Decodes a PNG or JPEG in memory. Throws InputError if it is neither, or over 16384 pixels a
+/// side.
 Image decode_picture(std::span<const std::byte> bytes);
 
 }  // namespace sunder::render

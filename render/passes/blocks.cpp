@@ -20,7 +20,7 @@ BlockSides sides_of(const Mesh& mesh, const Box& box) {
 }
 
 BlockTone tone_of(std::uint64_t body_key) {
-  constexpr float kBrightness = 0.17f, kRedness = 0.07f;  // at most, more or less
+  constexpr float kBrightness = 0.17f, kRedness = 0.07f;  // greatest deviations, up and down
   constexpr float kScorchedShare = 0.12f, kScorched = 0.74f;
   const std::uint64_t bits = mix(body_key + 1);
   const auto part = [&](int which) {

@@ -1,4 +1,4 @@
-// Looks of blocks: bricks and ashlars that are a body each, and what has come off them.
+// Appearance of blocks: bricks and ashlars that are a body each, and pieces of them.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,20 @@
 
 namespace sunder::render {
 
-/// Sides of the box around a mesh, in the mesh's coordinates: far off where no face of the old
-/// surface lies on a side.
+/// Sides of the bounding box of a mesh, in coordinates of the mesh. A side on which no face of the
+/// original surface lies is at ±1e4 m.
 struct BlockSides {
   Vec3f low = Vec3f::Zero();
   Vec3f high = Vec3f::Zero();
 };
 BlockSides sides_of(const Mesh& mesh, const Box& box);
 
-/// Factors on the colour of a block: brightness, and how much more red than green it has.
+/// Variation of the colour of a block: factor of brightness, and excess of red over green.
 struct BlockTone {
   float brightness = 1;
   float redness = 0;
 };
-/// A body keeps its tone for a run, as it keeps its key.
+/// Returns the tone of a body, which depends on its key alone and so stays for a run.
 BlockTone tone_of(std::uint64_t body_key);
 
 }  // namespace sunder::render

@@ -12,9 +12,9 @@
 namespace sunder::render {
 namespace {
 
-constexpr int kPoints = 9;              // of which a chip is the hull
-constexpr float kLeastPixels = 0.3f;    // radius; less is not seen
-constexpr float kCasterTexels = 0.75f;  // radius
+constexpr int kHullPoints = 9;                    // number of points whose convex hull is a chip
+constexpr float kMinRadius_px = 0.3f;             // least radius, in pixels, that is drawn
+constexpr float kMinCasterRadius_texels = 0.75f;  // least radius, in texels, that casts a shadow
 
 struct ChipVertex {
   float position[3];
@@ -27,13 +27,13 @@ struct ChipInstance {
   float material;
 };
 
-/// A splinter inscribed in the unit sphere, flat-shaded: longer than wide, wider than thick.
+/// Makes a flat-shaded chip inscribed in the unit sphere: longer than wide, wider than thick.
 std::vector<ChipVertex> make_chip(std::uint64_t variant) {
   Random random(17, variant);
   const Vec3 shape(1, random.uniform(0.6, 0.9), random.uniform(0.4, 0.75));
   std::vector<Vec3> points;
   double farthest = 0;
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < kHullPoints; ++i) {
     points.push_back(random.uniform(0.8, 1) * random.direction().cwiseProduct(shape));
     farthest = std::max(farthest, points.back().norm());
   }
@@ -85,15 +85,16 @@ Chips::Chips(const GlTable& gl) : gl_(gl) {
   for (const GLuint attribute : {2u, 3u, 4u}) gl_.VertexAttribDivisor(attribute, 1);
 }
 
-void Chips::update(const Frame& frame, float pixels_a_radian, float shadow_texel_m) {
+void Chips::update(const Frame& frame, float pixels_per_radian, float shadow_texel_m) {
   const Vec3f forward = (frame.view.target_W - frame.view.eye_W).normalized().cast<float>();
   const Vec3f eye = frame.view.eye_W.cast<float>();
   std::array<std::vector<ChipInstance>, kDebrisVariants> casters, others;
   for (const FrameDebris& chip : frame.debris) {
     const Vec3f center = chip.position_W - eye;
     const float along = center.dot(forward);
-    if (chip.radius_m * pixels_a_radian < kLeastPixels * along || along < chip.radius_m) continue;
-    auto& list = chip.radius_m > kCasterTexels * shadow_texel_m ? casters : others;
+    if (chip.radius_m * pixels_per_radian < kMinRadius_px * along || along < chip.radius_m)
+      continue;
+    auto& list = chip.radius_m > kMinCasterRadius_texels * shadow_texel_m ? casters : others;
     list[chip.variant % kDebrisVariants].push_back(instance_of(chip, center));
   }
   std::vector<ChipInstance> all;

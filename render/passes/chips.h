@@ -1,4 +1,4 @@
-// Debris on the GPU: a handful of chip meshes, drawn many times each.
+// Drawing of debris: instances of a few chip meshes.
 #pragma once
 
 #include <array>
@@ -14,22 +14,22 @@ class Chips {
  public:
   explicit Chips(const GlTable& gl);
 
-  /// Uploads where the frame's debris is; what is behind the eye or far below a pixel is left out.
-  /// `shadow_texel_m`: smaller chips cast no shadow.
-  void update(const Frame& frame, float pixels_a_radian, float shadow_texel_m);
-  /// Into the sun's shadow map.
+  /// Uploads the debris of a frame, without chips behind the eye or far smaller than a pixel. Chips
+  /// smaller than about `shadow_texel_m` cast no shadow.
+  void update(const Frame& frame, float pixels_per_radian, float shadow_texel_m);
+  /// Draws into the shadow map of the sun.
   void draw_shadows() const;
   void draw() const;
-  /// The same, by another program.
+  /// Draws with another program.
   void draw(GLuint program) const;
 
  private:
   struct Variant {
     GLint first_vertex = 0;
     GLsizei vertices = 0;
-    std::size_t first = 0;    ///< Of the instances.
-    std::size_t casters = 0;  ///< The first so many cast a shadow.
-    std::size_t count = 0;
+    std::size_t first = 0;    ///< First instance.
+    std::size_t casters = 0;  ///< Number of instances, from the first on, that cast a shadow.
+    std::size_t count = 0;    ///< Number of instances.
   };
 
   void draw(GLuint program, std::size_t Variant::*count) const;

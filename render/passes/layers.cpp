@@ -16,7 +16,7 @@ namespace {
 struct Kind {
   const char* name;
   const char* define;
-  int channels;  ///< 0: floats.
+  int channels;  ///< Number of channels; 0 for floats.
   const char* meaning;
 };
 constexpr std::array<Kind, 4> kKinds = {{
@@ -67,7 +67,7 @@ Layers::Layers(const GlTable& gl, const std::vector<std::string>& names, int wid
 
 std::vector<Layer> Layers::draw(const Frame& frame, Pieces& pieces, const Chips& chips) {
   std::vector<Layer> layers;
-  pieces.name_bodies(frame);
+  pieces.write_body_ids(frame);
   gl_.Viewport(0, 0, width_, height_);
   gl_.Enable(GL_DEPTH_TEST);
   for (const Pass& pass : passes_) {
@@ -113,16 +113,15 @@ std::vector<float> Layers::read_metres() const {
   return metres;
 }
 
-/// The layer of depth. All pictures have the scale of the first; it is a power of two, so that
-/// parts of a run that are drawn apart agree, unless their cameras differ twofold in their
-/// distances.
-DeepImage Layers::depth_image(const View& view) {
+/// Returns layer "depth". All images have the scale of the first, a power of two, so that parts of
+/// a run drawn separately agree unless their camera distances differ by a factor of two.
+Image16 Layers::depth_image(const View& view) {
   constexpr double kWhite = 65535;
   if (!far_m_) {
     const double behind_m = 4 * (view.target_W - view.eye_W).norm();
     far_m_ = std::exp2(std::ceil(std::log2(std::max(behind_m, 1e-3))));
   }
-  DeepImage image{width_, height_, 1, {}, {}};
+  Image16 image{width_, height_, 1, {}, {}};
   for (const float depth_m : read_metres()) {
     const double level = std::min(kWhite, kWhite * double{depth_m} / *far_m_);
     image.values.push_back(static_cast<std::uint16_t>(std::lround(level)));
@@ -133,11 +132,11 @@ DeepImage Layers::depth_image(const View& view) {
   return image;
 }
 
-DeepImage Layers::read(int channels) const {
+Image16 Layers::read(int channels) const {
   const auto columns = static_cast<std::size_t>(width_), rows = static_cast<std::size_t>(height_);
   std::vector<std::uint16_t> pixels(4 * columns * rows);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_SHORT, pixels.data());
-  DeepImage image{width_, height_, channels, {}, {}};
+  Image16 image{width_, height_, channels, {}, {}};
   for (std::size_t row = rows; row-- > 0;) {
     for (std::size_t x = 0; x < columns; ++x) {
       for (int c = 0; c < channels; ++c)

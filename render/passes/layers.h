@@ -1,4 +1,4 @@
-// What is known of each pixel besides its colour: how far it is, which way it faces, of what it is.
+// Data layers of an image: depth, normal and body of each pixel.
 #pragma once
 
 #include <optional>
@@ -15,14 +15,15 @@ namespace sunder::render {
 
 inline constexpr const char* kLayers = "depth | depth_m | normals | ids";
 
-/// Throws InputError for a name that is not in kLayers.
+/// Throws InputError if a name is not in kLayers.
 void check_layers(std::span<const std::string> names);
 
-/// Draws layers, each in a pass of its own over what is solid: glass is, dust is not.
+/// Draws layers, each in its own pass over solid surfaces, glass included, without dust.
 class Layers {
  public:
   Layers(const GlTable& gl, const std::vector<std::string>& names, int width, int height);
-  /// Of the frame that `pieces` and `chips` were updated with; those are changed.
+  /// Draws the layers of the frame that `pieces` and `chips` were updated with. Overwrites the
+  /// materials in the slots of `pieces`.
   std::vector<Layer> draw(const Frame& frame, Pieces& pieces, const Chips& chips);
 
  private:
@@ -32,15 +33,15 @@ class Layers {
   };
 
   void draw(const Pass& pass, Pieces& pieces, const Chips& chips);
-  DeepImage read(int channels) const;
+  Image16 read(int channels) const;
   std::vector<float> read_metres() const;
-  DeepImage depth_image(const View& view);
+  Image16 depth_image(const View& view);
 
   const GlTable& gl_;
   int width_, height_;
   GLuint framebuffer_ = 0;
-  GLuint depth_framebuffer_ = 0;  ///< Of floats.
-  std::optional<double> far_m_;   ///< White of the layer of depth, for all pictures.
+  GLuint depth_framebuffer_ = 0;  ///< Framebuffer of floats.
+  std::optional<double> far_m_;   ///< Depth of white in layer "depth", set by the first image.
   GLuint empty_vertex_array_ = 0;
   std::vector<Pass> passes_;
 };

@@ -10,13 +10,13 @@ namespace {
 
 struct MarkVertex {
   float position[3];
-  float normal[3];  ///< 0 of an edge.
+  float normal[3];  ///< 0 for an edge.
 };
 
 struct MarkInstance {
   float center[3];  ///< Relative to the eye.
   float axes[9];
-  float color[4];  ///< And how much shows through.
+  float color[4];  ///< Colour; opacity where hidden.
 };
 
 std::vector<MarkVertex> make_octahedron() {
@@ -39,7 +39,7 @@ std::vector<MarkVertex> make_edges() {
   for (int axis = 0; axis < 3; ++axis) {
     for (int corner = 0; corner < 8; ++corner) {
       MarkVertex& v = vertices.emplace_back(MarkVertex{{0, 0, 0}, {0, 0, 0}});
-      for (int i = 0; i < 3; ++i)  // along this axis first, so that pairs of corners are its edges
+      for (int i = 0; i < 3; ++i)  // this axis first, so that pairs of corners are edges along it
         v.position[(axis + i) % 3] = (corner >> i & 1) != 0 ? 1.f : -1.f;
     }
   }
@@ -50,7 +50,7 @@ MarkInstance instance_of(const Mark& mark, const Vec3& eye_W) {
   const Vec3f center = (mark.center_W.cast<double>() - eye_W).cast<float>();
   MarkInstance made{{center.x(), center.y(), center.z()},
                     {},
-                    {mark.color.x(), mark.color.y(), mark.color.z(), mark.through}};
+                    {mark.color.x(), mark.color.y(), mark.color.z(), mark.hidden_opacity}};
   for (int i = 0; i < 9; ++i) made.axes[i] = mark.half_axes_W(i % 3, i / 3);
   return made;
 }

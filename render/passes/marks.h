@@ -1,5 +1,4 @@
-// What view modes point out, on the GPU: plain shapes that show, fainter, through what is before
-// them.
+// Drawing of the marks of view modes: plain shapes, which show faintly where they are hidden.
 #pragma once
 
 #include <span>
@@ -10,16 +9,16 @@
 
 namespace sunder::render {
 
-/// A shape stretched along three axes.
+/// A shape scaled along three axes.
 struct Mark {
   Vec3f center_W = Vec3f::Zero();
-  Mat3f half_axes_W = Mat3f::Identity();  ///< In columns.
+  Mat3f half_axes_W = Mat3f::Identity();  ///< Half axes in columns.
   Vec3f color = Vec3f::Ones();            ///< Linear RGB.
-  float through = 0.5f;                   ///< How much of it shows where it is hidden.
+  float hidden_opacity = 0.5f;            ///< Opacity where the mark is hidden, 0 to 1.
 };
 struct MarkList {
-  std::vector<Mark> spindles;  ///< Octahedra, solid.
-  std::vector<Mark> boxes;     ///< Their edges.
+  std::vector<Mark> spindles;  ///< Solid octahedra.
+  std::vector<Mark> boxes;     ///< Edges of boxes.
 
   bool empty() const { return spindles.empty() && boxes.empty(); }
 };
@@ -30,7 +29,7 @@ class Marks {
 
   void update(const MarkList& marks, const Vec3& eye_W);
   bool any() const { return spindles_.count + boxes_.count > 0; }
-  /// Over what is there, with its depths: what they hide, and then what hides them.
+  /// Draws into the bound framebuffer and its depths: hidden parts first, then visible ones.
   void draw() const;
 
  private:
@@ -38,7 +37,7 @@ class Marks {
     GLenum kind = GL_TRIANGLES;
     GLint first_vertex = 0;
     GLsizei vertices = 0;
-    std::size_t first = 0;  ///< Of the instances.
+    std::size_t first = 0;  ///< First instance.
     GLsizei count = 0;
   };
 

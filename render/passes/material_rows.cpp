@@ -5,17 +5,17 @@
 namespace sunder::render {
 namespace {
 
-constexpr float kNoPlaster = 9;
-/// The share of the weathering noise above which plaster has held on a brick wall.
+constexpr float kNoPlaster = 9;  ///< A value that the weathering noise never reaches.
+/// Value of the weathering noise, 0 to 1, above which plaster is left on a brick wall.
 constexpr float kPlasterFrom = 0.58f;
 
 struct Finish {
   Tile tile = Tile::kGrain;
-  Vec3f second = Vec3f::Zero();  ///< Linear colour of joints, pits, stones.
-  float bump = 1;
-  float contrast = 1.4f;  ///< How far brightness swings with the tile.
-  float plaster_from = kNoPlaster;
-  float chips = 1;  ///< How bright debris of it is.
+  Vec3f second = Vec3f::Zero();     ///< Linear colour of joints, pits or stones.
+  float bump = 1;                   ///< Factor of the slopes of the tile.
+  float contrast = 1.4f;            ///< Factor of the brightness variation of the tile.
+  float plaster_from = kNoPlaster;  ///< Value of the weathering noise from which there is plaster.
+  float chips = 1;                  ///< Brightness factor of debris.
 };
 
 Finish surface_finish(const Look& look) {
@@ -31,14 +31,14 @@ Finish surface_finish(const Look& look) {
     case Texture::kMetal:
       return {Tile::kGrain, look.color, 0.25f, 0.8f};
     case Texture::kGlass:
-      return {Tile::kGrain, look.color, 0, 1};  // no bump: how glass.frag tells a clear face
+      return {Tile::kGrain, look.color, 0, 1};  // glass.frag knows clear faces by bump = 0
     case Texture::kPlain:
       return {Tile::kGrain, look.color, 1, 1.2f};
   }
   return {};
 }
 
-/// A broken face: the same stuff, rougher, with what is inside it showing.
+/// Returns the finish of a broken face: rougher, with the interior of the material visible.
 Finish interior_finish(const Look& look) {
   switch (look.texture) {
     case Texture::kBrick:
@@ -68,7 +68,7 @@ void append(std::vector<float>& texels, const Look& look, const Finish& finish) 
 
 std::vector<float> material_rows(std::span<const Material> materials) {
   std::vector<float> texels;
-  texels.reserve(4 * kTexelsAMaterial * materials.size());
+  texels.reserve(4 * kTexelsPerMaterial * materials.size());
   for (const Material& material : materials) {
     append(texels, material.surface, surface_finish(material.surface));
     append(texels, material.interior, interior_finish(material.interior));

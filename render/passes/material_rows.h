@@ -1,4 +1,4 @@
-// What materials look like, as numbers for the shaders.
+// The appearance of materials as texels for the shaders.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,10 @@
 
 namespace sunder::render {
 
-/// Texels (RGBA, float) of `materials` in pieces.vert: two rows a material, its surface and its
-/// interior, of three texels each.
-inline constexpr std::size_t kTexelsAMaterial = 6;
+/// Number of texels of a material in material_rows().
+inline constexpr std::size_t kTexelsPerMaterial = 6;
+/// Returns the texels (RGBA, float) of `materials` for pieces.vert: for each material a row for its
+/// surface and one for its interior, of three texels each.
 std::vector<float> material_rows(std::span<const Material> materials);
 
 }  // namespace sunder::render

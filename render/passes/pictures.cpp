@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "render/image/image.h"
-#include "render/image/relief.h"
+#include "render/image/normal_map.h"
 
 namespace sunder::render {
 namespace {
 
-/// RGBA texels of a picture scaled to `side` x `side`: the mean of what each covers, and of its
-/// nearest pixels where that is less than one; the row where texture coordinates begin comes first.
-std::vector<std::uint8_t> scaled(const Image& image, int side, bool from_below) {
+/// Returns the RGBA texels of a picture scaled to `side` x `side` by the mean of the pixels that
+/// each texel covers, at least one. The row of texture coordinate v = 0 comes first.
+std::vector<std::uint8_t> scaled(const Image& image, int side, bool v_from_bottom) {
   std::vector<std::uint8_t> texels(4 * static_cast<std::size_t>(side) *
                                    static_cast<std::size_t>(side));
   const auto covered = [&](int texel, int pixels) {
@@ -22,7 +22,7 @@ std::vector<std::uint8_t> scaled(const Image& image, int side, bool from_below) 
     return std::pair(first, std::max(end, first + 1));
   };
   for (int v = 0; v < side; ++v) {
-    const auto [top, bottom] = covered(from_below ? side - 1 - v : v, image.height);
+    const auto [top, bottom] = covered(v_from_bottom ? side - 1 - v : v, image.height);
     for (int u = 0; u < side; ++u) {
       const auto [left, right] = covered(u, image.width);
       std::uint32_t sum[3] = {};
@@ -61,28 +61,28 @@ float Pictures::layer_of(const Layer& layer) const {
   return shown ? static_cast<float>(found - layers_.begin() + 1) : 0.0f;
 }
 
-void Pictures::update(const std::vector<Paint>& paints) {
+void Pictures::update(const std::vector<Appearance>& paints) {
   layers_.clear();
   std::vector<Image> images;
   int largest = 1;
   const auto add = [&](const Layer& layer) {
-    if (!layer.picture || layers_.size() == kMostPictures || layer_of(layer) > 0) return;
+    if (!layer.picture || layers_.size() == kMaxPictures || layer_of(layer) > 0) return;
     images.push_back(decode_picture(*layer.picture));
-    if (layer.relief_scale) {
-      const float scale = *layer.relief_scale;
-      images.back() = normals_of(images.back(), scale, layer.from_below ? scale : -scale);
+    if (layer.normal_scale) {
+      const float scale = *layer.normal_scale;
+      images.back() = make_normal_map(images.back(), scale, layer.v_from_bottom ? scale : -scale);
     }
     layers_.push_back(layer);
     largest = std::max({largest, images.back().width, images.back().height});
   };
-  for (const Paint& paint : paints) add(color_layer(paint));
-  for (const Paint& paint : paints) add(relief_layer(paint));
-  for (const Paint& paint : paints) add(gloss_layer(paint));
+  for (const Appearance& paint : paints) add(color_layer(paint));
+  for (const Appearance& paint : paints) add(relief_layer(paint));
+  for (const Appearance& paint : paints) add(gloss_layer(paint));
   const auto wanted = static_cast<int>(std::bit_ceil(static_cast<unsigned>(largest)));
-  const int side = std::min(wanted, kMostPictureTexels);
+  const int side = std::min(wanted, kMaxPictureSide);
   std::vector<std::uint8_t> texels(images.empty() ? 4 : 0);
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const std::vector<std::uint8_t> layer = scaled(images[i], side, layers_[i].from_below);
+    const std::vector<std::uint8_t> layer = scaled(images[i], side, layers_[i].v_from_bottom);
     texels.insert(texels.end(), layer.begin(), layer.end());
   }
   gl_.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA8, side, side,
@@ -93,9 +93,9 @@ void Pictures::update(const std::vector<Paint>& paints) {
   gl_.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-std::vector<float> Pictures::rows(const std::vector<Paint>& paints) const {
+std::vector<float> Pictures::rows(const std::vector<Appearance>& paints) const {
   std::vector<float> texels;
-  for (const Paint& paint : paints) {
+  for (const Appearance& paint : paints) {
     texels.insert(
         texels.end(),
         {paint.color.x(), paint.color.y(), paint.color.z(), layer_of(color_layer(paint)),

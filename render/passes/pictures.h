@@ -1,4 +1,4 @@
-// The pictures that paints of meshes from files have, on the GPU.
+// Textures of meshes from files: colour, relief and gloss.
 #pragma once
 
 #include <cstddef>
@@ -10,39 +10,41 @@
 
 namespace sunder::render {
 
-inline constexpr std::size_t kMostPictures = 32;  ///< Further ones are shown as their colour alone.
-inline constexpr int kMostPictureTexels = 1024;   ///< A side; larger ones are shown as coarsely.
+/// Greatest number of textures; surfaces with further ones show their colour alone.
+inline constexpr std::size_t kMaxPictures = 32;
+/// Greatest width and height of a texture, in texels; larger pictures are scaled down.
+inline constexpr int kMaxPictureSide = 1024;
 
-/// An array texture with a layer a picture, all of one size.
+/// An array texture with one layer per picture, all of one size.
 class Pictures {
  public:
-  /// Binds its texture to the active unit.
+  /// Makes the texture and binds it to the active unit.
   explicit Pictures(const GlTable& gl);
 
-  /// Uploads those of `paints`, in place of what was there; on the same unit. Throws InputError for
-  /// what is neither PNG nor JPEG.
-  void update(const std::vector<Paint>& paints);
-  /// Texels (RGBA, float) of paints in pieces.vert, two a paint: its colour, and the layer of its
-  /// picture counted from 1, 0: none; those of its relief and gloss likewise, how rough it is, -1:
-  /// without gloss, and how much of a metal.
-  std::vector<float> rows(const std::vector<Paint>& paints) const;
+  /// Uploads the pictures of `paints` in place of the old ones; the unit must be active. Throws
+  /// InputError for a picture that is neither PNG nor JPEG.
+  void update(const std::vector<Appearance>& paints);
+  /// Returns the texels (RGBA, float) of `paints` for pieces.vert, two per paint. First: linear
+  /// colour, layer of its picture. Second: layer of its relief, layer of its gloss, roughness (-1
+  /// without gloss), metalness. Layers are counted from 1; 0 stands for none.
+  std::vector<float> rows(const std::vector<Appearance>& paints) const;
 
  private:
-  /// A picture, either way up.
+  /// A picture as it is used in a layer.
   struct Layer {
-    Picture picture;
-    bool from_below = false;
-    std::optional<float> relief_scale = std::nullopt;  ///< None: it shows colours.
+    EncodedImage picture;
+    bool v_from_bottom = false;                        ///< True if the bottom row comes first.
+    std::optional<float> normal_scale = std::nullopt;  ///< Set if the layer is a normal map.
     bool operator==(const Layer&) const = default;
   };
-  static Layer color_layer(const Paint& paint) { return {paint.picture, paint.from_below}; }
-  static Layer relief_layer(const Paint& paint) {
-    return {paint.relief, paint.from_below, paint.relief_scale};
+  static Layer color_layer(const Appearance& paint) { return {paint.picture, paint.v_from_bottom}; }
+  static Layer relief_layer(const Appearance& paint) {
+    return {paint.relief, paint.v_from_bottom, paint.normal_scale};
   }
-  static Layer gloss_layer(const Paint& paint) {
-    return {paint.gloss ? paint.gloss->picture : nullptr, paint.from_below};
+  static Layer gloss_layer(const Appearance& paint) {
+    return {paint.gloss ? paint.gloss->picture : nullptr, paint.v_from_bottom};
   }
-  /// Its number from 1; 0: it is not shown.
+  /// Returns the number of a layer, from 1, or 0 if it is not uploaded.
   float layer_of(const Layer& layer) const;
 
   const GlTable& gl_;

@@ -15,25 +15,25 @@ namespace sunder::render {
 namespace {
 
 constexpr std::size_t kFloatsPerSlot = 24;
-constexpr float kLarge_m = 0.25f;  // radius
-constexpr float kHeightDetail_m = 0.06f;
-// How many are looked through for what is covered, and how often.
-constexpr std::size_t kMany = 2000;
-constexpr int kRounds = 3;
+constexpr float kLargeRadius_m = 0.25f;   // least radius of a piece of Group::kLarge
+constexpr float kHeightDetail_m = 0.06f;  // size of the cubes in which vertices are merged
+// Least number of pieces for a round of occlusion culling.
+constexpr std::size_t kMinPiecesToCull = 2000;
+constexpr int kMaxCullingRounds = 3;  // greatest number of rounds of occlusion culling
 
 struct GpuVertex {
   float position[3];
   float normal[3];
-  std::uint32_t piece;  ///< slot * 2 + interior
+  std::uint32_t piece;  ///< Slot * 2 + 1 if interior.
   float uv[2];
-  std::uint32_t paint;  ///< From 1; 0: none.
+  std::uint32_t paint;  ///< Number of the paint, from 1, or 0 for none.
 };
 
 using Key = std::array<std::int32_t, 3>;
 
-/// Of each vertex, the first with the same key.
+/// Returns for each vertex the index of the first vertex with the same key.
 template <class KeyOf>
-std::vector<std::uint32_t> first_alike(const Mesh& mesh, const KeyOf& key_of) {
+std::vector<std::uint32_t> first_with_same_key(const Mesh& mesh, const KeyOf& key_of) {
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::vector<Key> keys;
   for (const Mesh::Vertex& vertex : mesh.vertices) keys.push_back(key_of(vertex.position));
@@ -50,8 +50,9 @@ std::vector<std::uint32_t> first_alike(const Mesh& mesh, const KeyOf& key_of) {
   return first;
 }
 
-/// Triangles by corners of which some stand for others; those without an area are left out.
-std::vector<std::uint32_t> joined(const Mesh& mesh, const std::vector<std::uint32_t>& first) {
+/// Returns the triangles with each vertex replaced by first[vertex], without those of no area.
+std::vector<std::uint32_t> merge_vertices(const Mesh& mesh,
+                                          const std::vector<std::uint32_t>& first) {
   std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const std::uint32_t a = first[mesh.indices[i]];
@@ -62,46 +63,48 @@ std::vector<std::uint32_t> joined(const Mesh& mesh, const std::vector<std::uint3
   return indices;
 }
 
-/// Corners in the same place are one: where only depths matter, faces share them.
-std::vector<std::uint32_t> for_depths(const Mesh& mesh) {
-  return joined(mesh, first_alike(mesh, [](const Vec3f& place) {
-                  return Key{std::bit_cast<std::int32_t>(place.x()),
-                             std::bit_cast<std::int32_t>(place.y()),
-                             std::bit_cast<std::int32_t>(place.z())};
-                }));
+/// Returns the triangles for depth passes: vertices at the same position are merged.
+std::vector<std::uint32_t> indices_for_depths(const Mesh& mesh) {
+  return merge_vertices(mesh, first_with_same_key(mesh, [](const Vec3f& place) {
+                          return Key{std::bit_cast<std::int32_t>(place.x()),
+                                     std::bit_cast<std::int32_t>(place.y()),
+                                     std::bit_cast<std::int32_t>(place.z())};
+                        }));
 }
 
-/// Corners in the same small cube are one: finer than what the sky's light is asked of.
-std::vector<std::uint32_t> for_heights(const Mesh& mesh) {
-  return joined(mesh, first_alike(mesh, [](const Vec3f& place) {
-                  const auto cube = [](float x) {
-                    return static_cast<std::int32_t>(std::floor(x / kHeightDetail_m));
-                  };
-                  return Key{cube(place.x()), cube(place.y()), cube(place.z())};
-                }));
+/// Returns the triangles for heights: vertices in small cubes, finer than the sky light, are
+/// merged.
+std::vector<std::uint32_t> indices_for_heights(const Mesh& mesh) {
+  return merge_vertices(mesh, first_with_same_key(mesh, [](const Vec3f& place) {
+                          const auto cube = [](float x) {
+                            return static_cast<std::int32_t>(std::floor(x / kHeightDetail_m));
+                          };
+                          return Key{cube(place.x()), cube(place.y()), cube(place.z())};
+                        }));
 }
 
-/// Which of `instances` are likely to cover others: in each part of the picture the nearest, and
-/// what is as near but for half its size.
-std::vector<std::uint8_t> in_front(const std::vector<std::uint32_t>& instances,
-                                   const std::vector<TurnedBox>& boxes, const SeenFrom& seen) {
-  constexpr std::size_t kParts = 64;  // along each side
+/// Flags likely occluders: in each part of the image the nearest, and those behind by half their
+/// size.
+std::vector<std::uint8_t> find_likely_occluders(const std::vector<std::uint32_t>& instances,
+                                                const std::vector<OrientedBox>& boxes,
+                                                const CullingView& view) {
+  constexpr std::size_t kParts = 64;  // parts along each side of the image
   std::vector<float> nearest(kParts * kParts, 1e30f);
   std::vector<std::size_t> part_of;
   part_of.reserve(instances.size());
   for (const std::uint32_t i : instances) {
-    const Eigen::Vector4f at = seen.picture_of_eye * boxes[i].center.homogeneous();
+    const Eigen::Vector4f at = view.picture_of_eye * boxes[i].center.homogeneous();
     const auto part = [&](float x) {
       return static_cast<std::size_t>(std::clamp(x / at.w() * kParts, 0.f, kParts - 1.f));
     };
     part_of.push_back(part(at.y()) * kParts + part(at.x()));
     float& least = nearest[part_of.back()];
-    least = std::min(least, seen.ahead.dot(boxes[i].center));
+    least = std::min(least, view.ahead.dot(boxes[i].center));
   }
   std::vector<std::uint8_t> front(instances.size());
   for (std::size_t k = 0; k < instances.size(); ++k) {
-    const TurnedBox& box = boxes[instances[k]];
-    front[k] = seen.ahead.dot(box.center) <= nearest[part_of[k]] + box.half_axes.norm();
+    const OrientedBox& box = boxes[instances[k]];
+    front[k] = view.ahead.dot(box.center) <= nearest[part_of[k]] + box.half_axes.norm();
   }
   return front;
 }
@@ -153,15 +156,15 @@ void Pieces::update(const Frame& frame) {
   SUNDER_CHECK(frame.meshes && frame.materials);
   assign_slots(frame);
   if (!upload_new()) {
-    // No room: begin again with what this frame shows, which also drops what is gone.
-    forget();
+    // The buffers are full: start again with the meshes of this frame, which drops unused ones.
+    clear_uploads();
     assign_slots(frame);
     upload_new();
   }
-  place(frame);
+  update_transforms(frame);
 }
 
-/// Gives every instance a slot.
+/// Assigns a slot to every instance.
 void Pieces::assign_slots(const Frame& frame) {
   ++frame_number_;
   copies_.resize(std::max(copies_.size(), frame.meshes->size()));
@@ -174,7 +177,7 @@ void Pieces::assign_slots(const Frame& frame) {
 
 std::uint32_t Pieces::find_slot(std::uint32_t mesh_index, const std::shared_ptr<const Mesh>& mesh) {
   Copies& copies = copies_[mesh_index];
-  // A frame of another run may mean another mesh by the same index.
+  // In a frame of another run, the index may belong to another mesh.
   if (copies.first != kNone && slots_[copies.first].mesh != mesh) copies = {};
   if (copies.frame != frame_number_) copies = {copies.first, copies.first, frame_number_};
   if (copies.unused != kNone) {
@@ -187,13 +190,13 @@ std::uint32_t Pieces::find_slot(std::uint32_t mesh_index, const std::shared_ptr<
   return copies.first;
 }
 
-void Pieces::forget() {
+void Pieces::clear_uploads() {
   slots_.clear();
   copies_.clear();
   uploaded_slots_ = vertices_ = indices_ = 0;
 }
 
-/// False if the buffers are too small, unless nothing is in them yet: then they grow.
+/// Uploads new slots. Returns false if the buffers are too small and not empty; empty ones grow.
 bool Pieces::upload_new() {
   std::vector<GpuVertex> vertices;
   std::vector<std::uint32_t> indices;
@@ -206,8 +209,8 @@ bool Pieces::upload_new() {
       for (const std::uint32_t corner : corners) indices.push_back(base + corner);
       return range;
     };
-    const std::vector<std::uint32_t> depths = for_depths(*slot.mesh);
-    const std::vector<std::uint32_t> heights = for_heights(*slot.mesh);
+    const std::vector<std::uint32_t> depths = indices_for_depths(*slot.mesh);
+    const std::vector<std::uint32_t> heights = indices_for_heights(*slot.mesh);
     auto& [lit, cast, high] = slot.indices;
     lit = added(slot.mesh->indices);
     cast = depths == slot.mesh->indices ? lit : added(depths);
@@ -234,13 +237,14 @@ bool Pieces::upload_new() {
   }
   gl_.BindVertexArray(vertex_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
-  if (vertices_ + vertices.size() > vertex_room_ || indices_ + indices.size() > index_room_) {
+  if (vertices_ + vertices.size() > vertex_capacity_ ||
+      indices_ + indices.size() > index_capacity_) {
     if (uploaded_slots_ > 0) return false;
-    vertex_room_ = 2 * vertices.size() + 65536;
-    index_room_ = 2 * indices.size() + 131072;
-    gl_.BufferData(GL_ARRAY_BUFFER, bytes(vertex_room_, sizeof(GpuVertex)), nullptr,
+    vertex_capacity_ = 2 * vertices.size() + 65536;
+    index_capacity_ = 2 * indices.size() + 131072;
+    gl_.BufferData(GL_ARRAY_BUFFER, bytes(vertex_capacity_, sizeof(GpuVertex)), nullptr,
                    GL_STATIC_DRAW);
-    gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes(index_room_, sizeof(std::uint32_t)), nullptr,
+    gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes(index_capacity_, sizeof(std::uint32_t)), nullptr,
                    GL_STATIC_DRAW);
   }
   uploaded_slots_ = slots_.size();
@@ -254,7 +258,7 @@ bool Pieces::upload_new() {
   return true;
 }
 
-void Pieces::place(const Frame& frame) {
+void Pieces::update_transforms(const Frame& frame) {
   slot_texels_.resize(std::max<std::size_t>(1, slots_.size()) * kFloatsPerSlot);
   casters_.clear();
   boxes_.clear();
@@ -298,7 +302,7 @@ void Pieces::place(const Frame& frame) {
       placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i)});
     };
     add(slot.painted && given.none() && group != Group::kGlass ? Group::kPainted : group);
-    if ((group == Group::kMatte || group == Group::kBlocks) && radius > kLarge_m)
+    if ((group == Group::kMatte || group == Group::kBlocks) && radius > kLargeRadius_m)
       add(Group::kLarge);
     if (group == Group::kGlass) continue;
     add(Group::kOpaque);
@@ -318,7 +322,7 @@ void Pieces::place(const Frame& frame) {
   fill_buffer(gl_, GL_TEXTURE_BUFFER, slot_buffer_, slot_texels_, GL_STREAM_DRAW);
 }
 
-void Pieces::name_bodies(const Frame& frame) {
+void Pieces::write_body_ids(const Frame& frame) {
   for (std::size_t i = 0; i < frame.instances.size(); ++i) {
     const std::uint64_t key = frame.bodies[frame.instances[i].body].key;
     slot_texels_[slot_of_instance_[i] * kFloatsPerSlot + 15] = static_cast<float>(key + 1);
@@ -339,40 +343,40 @@ void Pieces::draw(Group group) const {
   }
 }
 
-void Pieces::draw(Group group, CoveredTiles& covered) const {
-  draw_seen(group, Faces::kLit, covered);
+void Pieces::draw(Group group, DepthTiles& depth_tiles) const {
+  draw_unoccluded(group, Faces::kLit, depth_tiles);
 }
 
-void Pieces::draw_shadows(CoveredTiles& covered) const {
-  draw_seen(Group::kOpaque, Faces::kDepths, covered);
+void Pieces::draw_shadows(DepthTiles& depth_tiles) const {
+  draw_unoccluded(Group::kOpaque, Faces::kDepths, depth_tiles);
 }
 
-void Pieces::draw_heights(CoveredTiles& covered) const {
-  draw_seen(Group::kLarge, Faces::kHeights, covered);
+void Pieces::draw_heights(DepthTiles& depth_tiles) const {
+  draw_unoccluded(Group::kLarge, Faces::kHeights, depth_tiles);
 }
 
-void Pieces::draw_seen(Group group, Faces faces, CoveredTiles& covered) const {
+void Pieces::draw_unoccluded(Group group, Faces faces, DepthTiles& depth_tiles) const {
   std::vector<std::uint32_t> left = placed(group);
-  leave_out_hidden(left, covered);
-  for (int round = 0; round < kRounds && left.size() >= kMany; ++round) {
-    const std::vector<std::uint8_t> front = in_front(left, boxes_, covered.seen_from());
+  remove_occluded(left, depth_tiles);
+  for (int round = 0; round < kMaxCullingRounds && left.size() >= kMinPiecesToCull; ++round) {
+    const std::vector<std::uint8_t> front = find_likely_occluders(left, boxes_, depth_tiles.view());
     std::vector<std::uint32_t> first, rest;
     for (std::size_t k = 0; k < left.size(); ++k) {
       (front[k] != 0 ? first : rest).push_back(left[k]);
     }
     draw(first, faces);
-    covered.read();
+    depth_tiles.read();
     left = std::move(rest);
-    leave_out_hidden(left, covered);
+    remove_occluded(left, depth_tiles);
   }
   draw(left, faces);
 }
 
-void Pieces::leave_out_hidden(std::vector<std::uint32_t>& instances,
-                              const CoveredTiles& covered) const {
+void Pieces::remove_occluded(std::vector<std::uint32_t>& instances,
+                             const DepthTiles& depth_tiles) const {
   std::vector<std::uint8_t> hidden(instances.size());
   for_chunks(hidden.size(), 512, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t k = begin; k < end; ++k) hidden[k] = covered.hides(boxes_[instances[k]]);
+    for (std::size_t k = begin; k < end; ++k) hidden[k] = depth_tiles.hides(boxes_[instances[k]]);
   });
   std::size_t kept = 0;
   for (std::size_t k = 0; k < hidden.size(); ++k) {

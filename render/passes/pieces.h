@@ -1,4 +1,4 @@
-// The frame's instances on the GPU: every mesh is uploaded once, every frame only where they are.
+// Drawing of the instances of a frame: a mesh is uploaded once, its transform in every frame.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include "engine/model/frame.h"
 #include "render/gl/table.h"
 #include "render/passes/blocks.h"
-#include "render/passes/covered.h"
+#include "render/passes/depth_tiles.h"
 #include "render/passes/viewpoint.h"
 
 namespace sunder::render {
@@ -18,40 +18,40 @@ class Pieces {
  public:
   explicit Pieces(const GlTable& gl);
 
-  /// Uploads what is new of `frame` and where everything is.
+  /// Uploads the new meshes of `frame` and the transforms of all instances.
   void update(const Frame& frame);
-  /// Balls around the opaque pieces, relative to the eye.
+  /// Returns bounding spheres of the opaque pieces, relative to the eye.
   const std::vector<Caster>& casters() const { return casters_; }
-  /// The pieces with surfaces of a kind; opaque ones nearest first, glass farthest first.
+  /// Groups of pieces by kind of surface: opaque ones nearest first, glass farthest first.
   enum class Group : std::uint8_t {
     kMatte,
-    kPainted,  ///< Matte ones, of which a file says how they look.
-    kBlocks,   ///< Matte ones that are a body each, and dressed: bricks, ashlars, parts of them.
+    kPainted,  ///< Matte pieces with the appearance of a mesh file.
+    kBlocks,   ///< Plastered pieces that are a body each: bricks, ashlars and parts of them.
     kShiny,
-    kGlass,   ///< For each piece its back faces, then its front faces.
-    kOpaque,  ///< Again all that is no glass, in no order.
-    kLarge,   ///< Of the first three again those that keep light from rooms.
+    kGlass,   ///< Drawn for each piece as back faces, then front faces.
+    kOpaque,  ///< All pieces but glass, unordered, in addition to the groups above.
+    kLarge,   ///< Large matte pieces and blocks, in addition: they occlude light from the sky.
   };
   static constexpr int kGroups = 7;
   bool has(Group group) const { return !placed(group).empty(); }
-  /// All of them.
+  /// Draws all pieces of a group.
   void draw(Group group) const;
-  /// What is seen of them: what is covered by then in the picture is left out.
-  void draw(Group group, CoveredTiles& covered) const;
-  /// All that casts shadows, and the large ones as heights seen from above: depths alone.
-  void draw_shadows(CoveredTiles& covered) const;
-  void draw_heights(CoveredTiles& covered) const;
+  /// Draws the pieces of a group that are not hidden by what was drawn before.
+  void draw(Group group, DepthTiles& depth_tiles) const;
+  /// Draw depths alone: of all shadow casters, and of large pieces as heights seen from above.
+  void draw_shadows(DepthTiles& depth_tiles) const;
+  void draw_heights(DepthTiles& depth_tiles) const;
 
-  /// Until the next update, slots have the key of their body, and 1, in place of a material.
-  void name_bodies(const Frame& frame);
+  /// Writes body key + 1 in place of the material to the slots, until the next update().
+  void write_body_ids(const Frame& frame);
 
   GLuint slot_texture() const { return slot_texture_; }
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  /// Of the triangles of a mesh, those for light, which have all corners; for depths, which share
-  /// corners in the same place; and for the heights of large pieces, without what is small.
+  /// Index lists of a mesh: for shading, with all vertices; for depths, with vertices at the same
+  /// position merged; for heights of large pieces, with small details merged.
   enum class Faces : std::uint8_t { kLit, kDepths, kHeights };
   static constexpr int kKindsOfFaces = 3;
   struct Range {
@@ -59,38 +59,38 @@ class Pieces {
     std::uint32_t count = 0;
   };
 
-  /// One uploaded copy of a mesh. Vertices name their slot, so a mesh drawn twice in a frame is
-  /// uploaded twice.
+  /// An uploaded copy of a mesh, one for each instance in a frame: vertices contain their slot
+  /// index.
   struct Slot {
     std::shared_ptr<const Mesh> mesh;
     std::uint32_t next_copy = kNone;
     std::array<Range, kKindsOfFaces> indices = {};
-    Vec3f center = Vec3f::Zero();  ///< Of a box around the vertices, in the mesh's coordinates.
+    Vec3f center = Vec3f::Zero();  ///< Centre of the bounding box, in coordinates of the mesh.
     Vec3f half_extent = Vec3f::Zero();
     BlockSides sides = {};
     bool painted = false;
   };
-  /// The copies of a mesh, and the first that this frame does not use yet.
+  /// The linked list of copies of a mesh, and the first copy that this frame does not use yet.
   struct Copies {
     std::uint32_t first = kNone;
     std::uint32_t unused = kNone;
     std::uint64_t frame = 0;
   };
   struct Placed {
-    float distance;          ///< Along the view.
-    std::uint32_t instance;  ///< Decides ties, as slots depend on what was drawn before.
+    float distance;          ///< Distance along the view.
+    std::uint32_t instance;  ///< Breaks ties, because slots depend on earlier frames.
   };
 
   void assign_slots(const Frame& frame);
   std::uint32_t find_slot(std::uint32_t mesh_index, const std::shared_ptr<const Mesh>& mesh);
-  void forget();
+  void clear_uploads();
   bool upload_new();
-  void place(const Frame& frame);
+  void update_transforms(const Frame& frame);
   const std::vector<std::uint32_t>& placed(Group group) const {
     return placed_[static_cast<std::size_t>(group)];
   }
-  void draw_seen(Group group, Faces faces, CoveredTiles& covered) const;
-  void leave_out_hidden(std::vector<std::uint32_t>& instances, const CoveredTiles& covered) const;
+  void draw_unoccluded(Group group, Faces faces, DepthTiles& depth_tiles) const;
+  void remove_occluded(std::vector<std::uint32_t>& instances, const DepthTiles& depth_tiles) const;
   void draw(const std::vector<std::uint32_t>& instances, Faces faces) const;
 
   const GlTable& gl_;
@@ -101,19 +101,19 @@ class Pieces {
   GLuint slot_texture_ = 0;
 
   std::vector<Slot> slots_;
-  std::vector<Copies> copies_;  ///< By mesh index.
+  std::vector<Copies> copies_;  ///< Copies by mesh index.
   std::size_t uploaded_slots_ = 0;
-  std::size_t vertices_ = 0;  ///< Uploaded.
-  std::size_t indices_ = 0;
-  std::size_t vertex_room_ = 0;
-  std::size_t index_room_ = 0;
+  std::size_t vertices_ = 0;  ///< Number of uploaded vertices.
+  std::size_t indices_ = 0;   ///< Number of uploaded indices.
+  std::size_t vertex_capacity_ = 0;
+  std::size_t index_capacity_ = 0;
 
   std::uint64_t frame_number_ = 0;
   std::vector<std::uint32_t> slot_of_instance_;
   std::vector<float> slot_texels_;
   std::vector<Caster> casters_;
-  std::vector<TurnedBox> boxes_;                            ///< Of each instance.
-  std::array<std::vector<std::uint32_t>, kGroups> placed_;  ///< Instances, in order.
+  std::vector<OrientedBox> boxes_;                          ///< Box of each instance.
+  std::array<std::vector<std::uint32_t>, kGroups> placed_;  ///< Instances of each group, in order.
 };
 
 }  // namespace sunder::render

@@ -1,4 +1,4 @@
-// The programs of the passes, but for those of particles and marks, which have their own.
+// GL programs of the passes, except those of particles and marks.
 #pragma once
 
 #include "render/gl/table.h"
@@ -7,11 +7,12 @@ namespace sunder::render {
 
 struct Programs {
   GLuint shadow, zenith, matte, painted, blocks, shiny, glass, ground, sky, occlusion, blur;
-  GLuint composite, dusty;               ///< Light to picture; with dust.
-  GLuint gather, dusty_gather, develop;  ///< To a sum, and that to picture; 0 unless asked for.
+  GLuint composite, dusty;               ///< From light to image; with dust.
+  GLuint gather, dusty_gather, develop;  ///< From light to a sum, from the sum to an image; or 0.
 };
 
-/// `gathers`: pictures are sums; with `transparent`, of what covers them.
+/// Makes the programs; with `gathers` also those for images that are sums of samples, with
+/// `transparent` with alpha as coverage.
 Programs make_programs(const GlTable& gl, bool gathers, bool transparent);
 
 }  // namespace sunder::render

@@ -13,7 +13,7 @@ namespace {
 
 struct PuffInstance {
   float place[4];  ///< Centre relative to the eye; radius.
-  float look[4];   ///< Cosine and sine of its turn in the picture; opacity; material.
+  float look[4];   ///< Cosine and sine of the rotation in the image; opacity; material.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Dust on the GPU: soft sprites, lit by sun and sky, at half the picture's resolution.
+// Drawing of dust: soft sprites, lit by sun and sky, at half the resolution of the image.
 #pragma once
 
 #include "engine/model/frame.h"
@@ -10,10 +10,10 @@ class Puffs {
  public:
   explicit Puffs(const GlTable& gl);
 
-  /// Uploads the frame's dust, farthest first; what is behind the eye is left out.
+  /// Uploads the dust of a frame, farthest first, without the puffs behind the eye.
   void update(const Frame& frame);
   bool any() const { return count_ > 0; }
-  /// Light and the part of what is behind that it hides, premultiplied, over what is there.
+  /// Draws into the bound framebuffer, with premultiplied alpha.
   void draw() const;
 
  private:

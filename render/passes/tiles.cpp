@@ -1,5 +1,4 @@
-// Periodic noise, and what each tile makes of it. Plain arithmetic only (no libm), so that the
-// bytes are the same on every machine.
+// Periodic noise and the tiles. Only basic arithmetic (no libm): equal bytes on every machine.
 #include "render/passes/tiles.h"
 
 #include <algorithm>
@@ -19,7 +18,8 @@ float smooth(float low, float high, float x) {
 
 float lerp(float a, float b, float t) { return a + (b - a) * t; }
 
-/// In [0, 1), fixed for a cell of a lattice that repeats every (period_x, period_y) cells.
+/// Returns a random number in [0, 1) for a cell; the lattice repeats every (period_x, period_y)
+/// cells.
 float cell_random(int x, int y, int period_x, int period_y, int seed) {
   const int wx = ((x % period_x) + period_x) % period_x;
   const int wy = ((y % period_y) + period_y) % period_y;
@@ -28,7 +28,7 @@ float cell_random(int x, int y, int period_x, int period_y, int seed) {
   return static_cast<float>(mix(key) >> 40) * 0x1.0p-24f;
 }
 
-/// Value noise in [0, 1] of a tile with (cells_x, cells_y) lattice cells; u, v in [0, 1).
+/// Returns value noise in [0, 1] for a tile of (cells_x, cells_y) lattice cells; u, v in [0, 1).
 float value_noise(float u, float v, int cells_x, int cells_y, int seed) {
   const float x = u * static_cast<float>(cells_x);
   const float y = v * static_cast<float>(cells_y);
@@ -49,7 +49,7 @@ struct Cells {
   int y;
 };
 
-/// Octaves of value noise in [0, 1], each twice as fine and `gain` as strong as the one before.
+/// Returns fractal value noise in [0, 1]; each octave is twice as fine and `gain` times as strong.
 float fractal(float u, float v, Cells cells, int octaves, float gain, int seed) {
   float sum = 0;
   float weight = 1;
@@ -62,7 +62,8 @@ float fractal(float u, float v, Cells cells, int octaves, float gain, int seed) 
   return sum / total;
 }
 
-/// Distances to the nearest and second nearest of one jittered point a cell, in cells, and which.
+/// Worley noise with one jittered point per cell: distances to the nearest and second nearest
+/// point, in cells, and a random number of the nearest.
 struct Worley {
   float nearest = 9;
   float second = 9;
@@ -92,7 +93,7 @@ Worley worley(float u, float v, int cells, int seed) {
   return found;
 }
 
-/// What a tile is at one place; slopes follow from the heights.
+/// The content of a tile at one point; slopes follow from the heights.
 struct Texel {
   float brightness = 0.5f;
   float second = 0;
@@ -106,8 +107,8 @@ Texel grain(float u, float v) {
 }
 
 Texel brick(float u, float v) {
-  constexpr int kAlong = 8;     // bricks a tile: 25 cm with the joint
-  constexpr int kCourses = 24;  // 8.3 cm with the joint
+  constexpr int kAlong = 8;     // bricks per tile: 25 cm with the joint
+  constexpr int kCourses = 24;  // courses per tile: 8.3 cm with the joint
   const float metres = kTileMetres[static_cast<int>(Tile::kBrick)];
   const float wobble = 0.0035f * (fractal(u, v, {24, 24}, 3, 0.5f, 200) - 0.5f);
   const float course = (v + wobble) * kCourses;
@@ -135,7 +136,7 @@ Texel brick(float u, float v) {
 Texel concrete(float u, float v) {
   const float cloud = fractal(u, v, {3, 3}, 5, 0.55f, 300);
   const float fine = fractal(u, v, {80, 80}, 3, 0.7f, 306);
-  // Rain drawn downwards: long along v.
+  // Streaks of rain, long along v.
   const float streak = fractal(u, v, {40, 3}, 3, 0.6f, 310);
   const Worley w = worley(u, v, 46, 314);
   const float pit = w.id > 0.72f ? 1 - smooth(0.06f, 0.06f + 0.2f * w.id, w.nearest) : 0.0f;
@@ -189,22 +190,23 @@ Texel cloud(float u, float v) {
   return {shade, smooth(0.2f, 0.8f, patches), 0.02f * fine};
 }
 
-using Painter = Texel (*)(float, float);
-constexpr Painter kPainters[kTiles] = {grain, brick, concrete, plaster, wood, rubble, cloud};
+using TileFunction = Texel (*)(float, float);
+constexpr TileFunction kTileFunctions[kTiles] = {grain, brick,  concrete, plaster,
+                                                 wood,  rubble, cloud};
 
 std::uint8_t byte_of(float value) {
   return static_cast<std::uint8_t>(255 * std::clamp(value, 0.0f, 1.0f) + 0.5f);
 }
 
-/// Writes one layer: paints every texel, then turns heights into slopes.
+/// Writes one layer: evaluates every texel, then converts heights to slopes.
 void bake(std::size_t layer, std::uint8_t* rgba) {
   constexpr std::size_t kSide = kTileSize;
   std::vector<Texel> texels(kSide * kSide);
   for_chunks(kSide, 16, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t y = begin; y < end; ++y) {
       for (std::size_t x = 0; x < kSide; ++x) {
-        texels[y * kSide + x] = kPainters[layer]((static_cast<float>(x) + 0.5f) / kTileSize,
-                                                 (static_cast<float>(y) + 0.5f) / kTileSize);
+        texels[y * kSide + x] = kTileFunctions[layer]((static_cast<float>(x) + 0.5f) / kTileSize,
+                                                      (static_cast<float>(y) + 0.5f) / kTileSize);
       }
     }
   });
@@ -219,8 +221,8 @@ void bake(std::size_t layer, std::uint8_t* rgba) {
       std::uint8_t* out = rgba + 4 * (y * kSide + x);
       out[0] = byte_of(texels[y * kSide + x].brightness);
       out[1] = byte_of(texels[y * kSide + x].second);
-      out[2] = byte_of(0.5f + 0.5f * du / kSteepest);
-      out[3] = byte_of(0.5f + 0.5f * dv / kSteepest);
+      out[2] = byte_of(0.5f + 0.5f * du / kMaxSlope);
+      out[3] = byte_of(0.5f + 0.5f * dv / kMaxSlope);
     }
   }
 }

@@ -1,7 +1,7 @@
-// The procedural textures' raw material: small pictures of a metre or two of wall that repeat.
+// Tiles: periodic images from which the procedural textures are composed, of 0.7 m to 7.3 m.
 //
-// They are baked once, on the processor, so that a fragment shader needs a texel instead of
-// octaves of noise, and mip maps filter what is far away.
+// They are baked once on the CPU, so that a fragment shader reads a texel in place of octaves of
+// noise, and mip maps filter distant surfaces.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ enum class Tile : std::uint8_t {
   kCloud,     ///< Large smooth variation, for weathering.
 };
 inline constexpr int kTiles = 7;
-inline constexpr int kTileSize = 512;  ///< Texels a side.
+inline constexpr int kTileSize = 512;  ///< Width and height of a tile, in texels.
 
-/// How many metres of surface a tile shows.
+/// Size of a tile on a surface, in m.
 inline constexpr float kTileMetres[kTiles] = {0.7f, 2, 2.7f, 1.9f, 1.2f, 0.8f, 7.3f};
-/// Slopes (dz/du, dz/dv) are stored between −kSteepest and +kSteepest.
-inline constexpr float kSteepest = 2;
+/// Slopes (dz/du, dz/dv) are stored from −kMaxSlope to +kMaxSlope.
+inline constexpr float kMaxSlope = 2;
 
-/// RGBA8 texels of every layer, one after the other. Red: brightness, 0.5 is neutral. Green: how
-/// much of the second colour (joints, pits, stones). Blue, alpha: slope along u and v.
+/// Returns the RGBA8 texels of every layer in order. Red: brightness, 0.5 is neutral. Green: share
+/// of the second colour (joints, pits, stones). Blue, alpha: slope along u and v.
 std::vector<std::uint8_t> bake_tiles();
 
-/// As the texture of the unit that is current.
+/// Uploads the tiles as the texture of the active unit.
 void upload_tiles(const GlTable& gl);
 
 }  // namespace sunder::render

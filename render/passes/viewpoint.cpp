@@ -10,7 +10,7 @@ namespace {
 
 using Mat4 = Eigen::Matrix4d;
 
-constexpr double kGroundPeriod_m = 64;  // the ground's texture repeats after this
+constexpr double kGroundPeriod_m = 64;  // period of the ground's texture
 
 void store(float* out, const Vec3& v, double w) {
   for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
@@ -21,7 +21,7 @@ void store(float* out, const Mat4& m) {
   for (int i = 0; i < 16; ++i) out[i] = static_cast<float>(m(i % 4, i / 4));
 }
 
-/// Right, up and forward of somebody looking along `forward`, as rows.
+/// Returns the axes of a view along `forward` as rows: right, up and forward.
 Mat3 frame_along(const Vec3& forward) {
   const Vec3 ahead = forward.normalized();
   const Vec3 sky = std::abs(ahead.y()) < 0.999 ? Vec3::UnitY() : Vec3::UnitZ();
@@ -31,7 +31,7 @@ Mat3 frame_along(const Vec3& forward) {
   return rows;
 }
 
-/// The box of the casters in the sun's frame, kept to what is near the view's target.
+/// Returns a box, in the frame of the sun, around the casters within `reach` of the view's target.
 Box caster_box(std::span<const Caster> casters, const Mat3& sun, const Vec3& target, double reach) {
   Box box;
   for (const Caster& caster : casters) {
@@ -49,20 +49,20 @@ Box caster_box(std::span<const Caster> casters, const Mat3& sun, const Vec3& tar
   return box;
 }
 
-/// The next of 1, 1.25, 1.5, 1.75 times a power of two that is at least x.
-double stepped_up(double x) {
+/// Returns the least of 1, 1.25, 1.5, 1.75 times a power of two that is at least x.
+double rounded_up(double x) {
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);  // in [0.5, 1)
   return std::ldexp(std::ceil(fraction * 8) / 8, exponent);
 }
 
-/// Eye space to shadow-map coordinates. Steps are taken in the world, not relative to the eye, so
-/// that a moving camera does not make shadows crawl.
+/// Returns the matrix from eye space to shadow-map coordinates. The map is snapped to a grid in the
+/// world, not relative to the eye, so that shadows do not shimmer when the camera moves.
 Mat4 shadow_matrix(const Mat3& sun, const Box& box, const Vec3& eye_W, double& side_m) {
   const Vec3 extent = box.extent();
-  // A quarter more than needed leaves room for the snapping below.
-  const double side = stepped_up(1.1 * std::max(extent.x(), extent.y()));
-  const double depth = stepped_up(1.1 * extent.z());
+  // A margin of a tenth on the extent, for the snapping below.
+  const double side = rounded_up(1.1 * std::max(extent.x(), extent.y()));
+  const double depth = rounded_up(1.1 * extent.z());
   side_m = side;
   const Vec3 eye = sun * eye_W;
   const double grid = side / 32;
@@ -77,7 +77,7 @@ Mat4 shadow_matrix(const Mat3& sun, const Box& box, const Vec3& eye_W, double& s
   return matrix;
 }
 
-// As they are in the light that a View has by itself.
+// Exposure and sky colours for the default lights of a View; linear RGB.
 constexpr float kExposure = 1.2f;
 const Vec3f kZenith(0.20f, 0.30f, 0.47f), kHorizon(0.70f, 0.70f, 0.69f);
 const Vec3f kCloud(0.95f, 0.93f, 0.9f), kSunGlow(0.42f, 0.31f, 0.18f);
@@ -111,12 +111,12 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
   const double wide = tall * width / height;
   const double near_m = std::clamp(0.02 * distance, 0.01, 0.5);
 
-  // Depth runs from 0 at the near plane to 1 at infinity: depth = 1 - near / distance.
+  // Depth is 0 at the near plane and 1 at infinity: depth = 1 - near / distance.
   Mat4 projection = Mat4::Zero();
   projection(0, 0) = 1 / wide;
   projection(1, 1) = 1 / tall;
-  const Vec2 aside = sample.aside_px.cwiseQuotient(0.5 * Vec2(width, height));
-  projection.block<2, 1>(0, 2) = -aside;
+  const Vec2 jitter = sample.jitter_px.cwiseQuotient(0.5 * Vec2(width, height));
+  projection.block<2, 1>(0, 2) = -jitter;
   projection(2, 2) = 1;
   projection(2, 3) = -2 * near_m;
   projection(3, 2) = 1;
@@ -124,15 +124,15 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
   rotation.topLeftCorner<3, 3>() = camera;
 
   const Vec3 to_sun = view.to_sun_W.normalized();
-  const auto seen_along = [&](const Vec3& forward, double& side_m) {
+  const auto shadow_matrix_along = [&](const Vec3& forward, double& side_m) {
     const Mat3 light = frame_along(forward);
     return shadow_matrix(light, caster_box(casters, light, look, 2.5 * distance), view.eye_W,
                          side_m);
   };
   double shadow_m = 0;
   double zenith_m = 0;
-  const Mat4 shadow = seen_along(-to_sun, shadow_m);
-  const Mat4 zenith = seen_along(-Vec3::UnitY(), zenith_m);
+  const Mat4 shadow = shadow_matrix_along(-to_sun, shadow_m);
+  const Mat4 zenith = shadow_matrix_along(-Vec3::UnitY(), zenith_m);
 
   FrameUniforms u = {};
   light(view, u);
@@ -142,7 +142,7 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
   const Vec3 right = wide * camera.row(0).transpose(), up = tall * camera.row(1).transpose();
   store(u.ray_right, right, 0);
   store(u.ray_up, up, 0);
-  store(u.ray_forward, camera.row(2).transpose() + aside.x() * right + aside.y() * up, 0);
+  store(u.ray_forward, camera.row(2).transpose() + jitter.x() * right + jitter.y() * up, 0);
   store(u.to_sun, to_sun, shadow_m / kShadowTexels);
   store(u.ground, view.ground_color.cast<double>(), view.ground_m - view.eye_W.y());
   store(u.ground_offset,

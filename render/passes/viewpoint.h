@@ -1,5 +1,4 @@
-// The camera and the sun as matrices: world coordinates in double become floats relative to the
-// eye here, and only here.
+// Matrices of camera and sun; the only conversion from the world in double to eye space in float.
 #pragma once
 
 #include <span>
@@ -32,20 +31,20 @@ struct FrameUniforms {
 inline constexpr int kShadowTexels = 2048;
 inline constexpr int kZenithTexels = 512;
 
-/// A ball around something that casts a shadow, relative to the eye.
+/// Bounding sphere of a shadow caster, relative to the eye.
 struct Caster {
   Vec3f center;
   float radius;
 };
 
-/// One of the pictures that a picture is the mean of.
+/// One of the samples that an image is the mean of.
 struct Sample {
-  Vec2 aside_px = Vec2::Zero();  ///< Of the middle of a pixel: right and up.
+  Vec2 jitter_px = Vec2::Zero();  ///< Offset from the centre of a pixel: right and up.
   double weight = 1;
 };
 
-/// The shadow map covers the casters in sight of the view's target, in steps coarse enough that it
-/// does not crawl while they move.
+/// Returns the uniforms of a frame. The shadow map covers the casters near the view's target; its
+/// size and place change in steps, so that shadows do not shimmer while the casters move.
 FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, int width,
                             int height, const Sample& sample = {});
 

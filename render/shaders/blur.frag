@@ -1,4 +1,4 @@
-// Averages occlusion over the 4x4 pixels its noise repeats in, not across edges.
+// Averages occlusion over 4x4 pixels, the period of its noise, but not across edges.
 uniform sampler2D openness;
 out vec4 result;
 

@@ -1,10 +1,10 @@
-// Where a piece is and what it is made of; after common.glsl, in vertex shaders.
+// Transform and material of a piece; after common.glsl, in vertex shaders.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint piece;  // slot * 2 + interior
 
-// Six texels a slot: rows of the 3x4 matrix to eye space; origin in the rest frame and material;
-// sides of its box that are old faces, in the rest frame, and how much brighter and redder it is.
+// Six texels per slot: three rows of the 3x4 matrix to eye space; origin in the rest frame, and
+// material; low sides of the original box in the rest frame, and brightness; high sides, and redness.
 uniform samplerBuffer slots;
 
 struct Piece {

@@ -1,6 +1,6 @@
-// A chip of debris: an instance of one of a few meshes. Its rest frame is its own, somewhere in
-// the texture of its material's inside.
-layout(location = 0) in vec3 position;  // on a chip of radius 1
+// Vertex of a chip of debris, an instance of one of a few meshes. Each chip has its own rest frame, at
+// an arbitrary place in the texture of its material's interior.
+layout(location = 0) in vec3 position;  // for a chip of radius 1
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 place;  // centre in eye space, radius
 layout(location = 3) in vec4 rotation;
@@ -58,6 +58,6 @@ void main() {
   second_color = texelFetch(materials, row + 1);
   vec4 rest_of_row = texelFetch(materials, row + 2);
   finish = rest_of_row.xyz;
-  first_color.rgb *= rest_of_row.w;  // a heap of glass is see-through
+  first_color.rgb *= rest_of_row.w;  // below 1 for glass, because a heap of it is transparent
 }
 #endif

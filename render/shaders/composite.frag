@@ -1,5 +1,5 @@
-// Light to picture: occlusion, tone, gamma. Written top row first. With GATHER, to a part of the
-// light that a picture is developed from.
+// Converts light to the image by occlusion, dust, tone curve and gamma, top row first. With GATHER,
+// writes a weighted sample of light, from whose sum develop.frag makes the image.
 uniform sampler2D lights;
 uniform sampler2D occlusion;
 uniform sampler2D depths;
@@ -9,8 +9,8 @@ uniform sampler2D dust;
 in vec2 at;
 out vec4 color;
 
-// Occlusion and dust were worked out at half the resolution: of the four nearest values, those from
-// the same distance count, so that no edge gets a seam.
+// Returns occlusion, and dust in `veil`, which have half the resolution: the four nearest values are
+// weighted by the similarity of their distances, so that edges have no seams.
 float open_at(ivec2 here, float along, out vec4 veil) {
   ivec2 last = textureSize(occlusion, 0) - 1;
   ivec2 near = here >> 1;
@@ -43,7 +43,7 @@ void main() {
   vec3 lit = light.rgb * mix(1.0, open, 0.35 + 0.65 * light.a);
   lit = lit * (1.0 - veil.a) + veil.rgb;
 #ifdef GATHER
-  // Where nothing solid is, light.a is how much of what is behind shows through glass.
+  // Without a solid surface, light.a is the share of the background visible through glass.
   bool covered = texelFetch(depths, here, 0).r < 1.0;
   float through = covered ? 0.0 : light.a * (1.0 - veil.a);
   color = vec4(lit, 1.0 - through) * lens.w;

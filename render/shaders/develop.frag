@@ -1,4 +1,4 @@
-// A sum of light to picture. With TRANSPARENT, alpha is how much of a pixel is covered.
+// Converts a sum of samples to the image. With TRANSPARENT, alpha is the covered part of a pixel.
 uniform sampler2D sums;
 in vec2 at;
 out vec4 color;

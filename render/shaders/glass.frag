@@ -1,7 +1,6 @@
-// Glass: a face reflects more of the world the more it is looked along, and takes some colour from
-// what is behind it; an edge, which is looked into far, takes most of it, and throws a little of the
-// light from around back. So cracks are darker than what is bright behind them, brighter than what
-// is dark, and glint where they mirror the sun.
+// Glass: a face reflects more at grazing angles and tints the background; an edge face, with a long
+// path through the glass, absorbs most of the background and scatters some ambient light. So cracks
+// look dark before a bright background, bright before a dark one, and glint where they reflect the sun.
 in vec3 rest;
 in vec3 normal_rest;
 in vec3 shadow;
@@ -11,7 +10,7 @@ flat in vec3 eye_rest;
 flat in vec4 first_color;
 flat in vec3 finish;
 layout(location = 0, index = 0) out vec4 color;
-layout(location = 0, index = 1) out vec4 through;  // what is left of that behind
+layout(location = 0, index = 1) out vec4 through;  // transmitted share of the background
 
 void main() {
   vec3 n = normalize(normal_rest);
@@ -37,7 +36,7 @@ void main() {
   vec3 light = fresnel * world;
   light += sun_light.rgb * (sun * glint * (0.4 + fresnel));
 
-  // The way through grows as the face is looked along, up to three times.
+  // The path through the glass is longer at grazing angles, up to three times.
   float way = min(1.0 / max(facing, 0.33), 3.0);
   vec3 clear = exp2(-way * 0.25 * (1.0 - first_color.rgb));
   vec3 deep = 0.5 * first_color.rgb * first_color.rgb;

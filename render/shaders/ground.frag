@@ -1,5 +1,5 @@
-// Bare dry ground. The place is found along the pixel's ray: interpolating it over so large a quad
-// would lose it.
+// Bare dry ground. Positions follow from the pixel's ray: interpolation over the quad is
+// inaccurate.
 uniform sampler2DArray tiles;
 out vec4 color;
 

@@ -1,3 +1,4 @@
+// Value of a data layer at a pixel.
 in vec3 place_;
 in vec3 normal_;
 flat in float body;
@@ -5,8 +6,7 @@ out vec4 value;
 
 void main() {
 #ifdef DEPTH
-  // Metres; from the depth itself, as places on the very large quad of the ground are lost in
-  // rounding.
+  // In metres, from the depth: positions interpolated over the ground's quad are inaccurate.
   value = vec4(lens.x / max(1.0 - gl_FragCoord.z, 1e-6));
 #endif
 #ifdef NORMALS

@@ -1,4 +1,4 @@
-// Where a surface is and faces, and whose it is: of pieces, or of the ground.
+// Vertex of a data layer: position, normal and body of a piece or of the ground.
 out vec3 place_;
 out vec3 normal_;
 flat out float body;
@@ -8,7 +8,7 @@ void main() {
   Piece piece_ = this_piece();
   place_ = piece_.rotation * position + piece_.translation;
   normal_ = piece_.rotation * normal;
-  body = float(piece_.material);  // as Pieces::name_bodies() has it
+  body = float(piece_.material);  // key of the body + 1, see Pieces::write_body_ids()
   gl_Position = clip_of_eye * vec4(place_, 1.0);
 }
 #endif

@@ -1,3 +1,4 @@
+// A mark of a view mode; with HIDDEN, its hidden part, blended by alpha.
 flat in vec4 color;
 out vec4 light;
 

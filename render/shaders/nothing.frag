@@ -1,1 +1,2 @@
+// For depth-only passes.
 void main() {}

@@ -1,7 +1,6 @@
-// How much of the light from all around is kept out, at half the resolution: by near things, from
-// the depths alone (after McGuire et al., "The Alchemy Screen-Space Ambient Obscurance Algorithm",
-// 2011), and by roofs and walls, from the heights seen from above.
-// Red: light left. Green: distance along the view, for the blur.
+// Ambient occlusion at half the resolution: by near surfaces, from the depths (after McGuire et al.,
+// "The Alchemy Screen-Space Ambient Obscurance Algorithm", 2011), and by roofs and walls, from the
+// heights seen from above. Red: remaining share of ambient light. Green: distance along the view.
 uniform sampler2D depths;
 uniform sampler2DShadow zenith_map;
 in vec2 at;
@@ -19,8 +18,8 @@ vec3 place_at(vec2 where, float along) {
   return (ray_forward.xyz + ndc.x * ray_right.xyz + ndc.y * ray_up.xyz) * along;
 }
 
-// The part of the sky that is seen from somewhere, roughly: taps around it are open if nothing
-// stands higher there than a line that rises outwards.
+// Returns the visible part of the sky at a place, approximately: the share of taps around it at which
+// nothing is higher than a line that rises outwards.
 float open_sky(vec3 place, vec3 n, vec2 arm) {
   vec3 from = place + vec3(n.x, 0.0, n.z) * 0.9 + vec3(0.0, 0.12, 0.0);
   float sum = 0.0;
@@ -37,7 +36,7 @@ void main() {
   float along = distance_at(at);
   vec3 here = place_at(at, along);
 
-  // The face's normal from the nearer neighbour on each axis, so that edges stay sharp.
+  // The normal of the face, from the neighbour on each axis that is nearer in depth, for sharp edges.
   vec2 dx = vec2(pixel.z, 0.0);
   vec2 dy = vec2(0.0, pixel.w);
   float l = distance_at(at - dx), r = distance_at(at + dx);

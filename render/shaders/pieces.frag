@@ -1,5 +1,4 @@
-// A lit, textured face. Alpha is the share of the light that comes from all around: what ambient
-// occlusion may take away.
+// A lit, textured face. Alpha is the share of ambient light, which ambient occlusion reduces.
 uniform sampler2DArray tiles;
 #ifdef PAINTED
 uniform sampler2DArray pictures;
@@ -27,16 +26,16 @@ out vec4 color;
 
 const float kCloudLayer = 6.0;
 const float kCloudsPerMetre = 1.0 / 7.3;
-const float kSteepest = 2.0;
-const float kDielectric = 0.04;  // what is no metal mirrors of what is straight before it
+const float kMaxSlope = 2.0;
+const float kDielectric = 0.04;  // reflectance of non-metals at normal incidence
 const vec3 kPlaster = vec3(0.56, 0.52, 0.45);
-const float kJoint = 0.007;  // metres from an edge to which a joint between blocks reaches
+const float kJoint = 0.007;  // half the width of a joint between blocks, in metres
 
 #ifdef PAINTED
-// The normal that a picture says, on a face with normal n. What its two coordinates grow along
-// follows from how they and the place change from pixel to pixel: of the changes `across` and `down`
-// of the place, the gradient g of what changes by a and d has g.across = a and g.down = d, and no
-// part along n.
+// Returns the normal of a normal map on a face with normal n. The directions of the texture
+// coordinates follow from the changes of place and coordinates from pixel to pixel: for changes
+// `across` and `down` of the place, the gradient g of a coordinate that changes by a and d satisfies
+// dot(g, across) = a, dot(g, down) = d and dot(g, n) = 0.
 vec3 in_relief(vec3 n, vec3 place) {
   vec3 across = dFdx(place), down = dFdy(place);
   vec2 a = dFdx(picture_uv), d = dFdy(picture_uv);
@@ -46,18 +45,18 @@ vec3 in_relief(vec3 n, vec3 place) {
   vec3 along = side * (a.y * by_across + d.y * by_down);
   vec3 told = texture(pictures, vec3(picture_uv, detail.x - 1.0)).xyz;
   told = (told * 255.0 - 128.0) / 127.0;
-  // Where coordinates stand still there is no direction, and the face is flat.
+  // If the coordinates are constant, the gradients are 0 and the face stays flat.
   right *= inversesqrt(max(dot(right, right), 1e-37));
   along *= inversesqrt(max(dot(along, along), 1e-37));
   return normalize(told.x * right + told.y * along + told.z * n);
 }
 
-// The sun in a face with normal n, times the face's slant to it. The slopes of a rough face are
-// distributed as Trowbridge and Reitz have it (GGX), and hide each other as in Smith's theory, which
-// Hammon (2017) made short; the last factor is Schlick's (1994) of Fresnel's.
+// Returns the specular reflection of the sun in a face with normal n, times the cosine `slant` to the
+// sun: GGX distribution (Trowbridge and Reitz), Smith masking in Hammon's approximation (2017), and
+// Schlick's approximation (1994) of Fresnel's equations.
 vec3 sun_in(vec3 n, vec3 view, float slant, float roughness, vec3 mirror) {
   vec3 half_way = normalize(sun_rest - view);
-  float spread = max(roughness * roughness, 0.015);  // what the sun itself is wide, and a pixel
+  float spread = max(roughness * roughness, 0.015);  // at least the width of the sun and of a pixel
   float square = spread * spread;
   float off = dot(n, half_way);
   float peak = off * off * (square - 1.0) + 1.0;
@@ -69,7 +68,7 @@ vec3 sun_in(vec3 n, vec3 view, float slant, float roughness, vec3 mirror) {
   return fresnel * (slant * seen * square / (peak * peak));
 }
 
-// What is around, as a face that is so rough mirrors it: the less of a picture, the rougher.
+// Returns the reflection of the surroundings in a face of this roughness; blurred if rough.
 vec3 world_in(vec3 n, vec3 view, float roughness, vec3 mirror) {
   vec3 mirrored = reflect(view, n);
   vec3 world = mirrored_at(dot(mirrored, up_rest), dot(mirrored, sun_rest) * (1.0 - roughness),
@@ -85,7 +84,7 @@ vec3 world_in(vec3 n, vec3 view, float roughness, vec3 mirror) {
 void main() {
   vec3 n = normalize(normal_rest);
 
-  // The texture is laid on along the axis that the face looks along most.
+  // The texture is projected along the axis to which the normal is closest.
   vec3 a = abs(n);
   vec2 uv = a.y > max(a.x, a.z) ? rest.xz : (a.x > 1.01 * a.z ? rest.zy : rest.xy);
   vec4 tile = texture(tiles, vec3(uv * first_color.w, finish.x));
@@ -94,17 +93,17 @@ void main() {
   vec3 albedo = mix(first_color.rgb, second_color.rgb, tile.g);
   albedo *= 1.0 + finish.z * (tile.r - 0.5) + 0.5 * (cloud.r - 0.5);
 
-  // Plaster where the weather has left it, with a dark broken rim.
+  // Plaster where the weathering noise is high, with a dark rim.
   float bare = second_color.w;
   float plaster = smoothstep(bare - 0.035, bare, cloud.g + 0.08 * (tile.r - 0.5));
   float rim = plaster * (1.0 - smoothstep(bare, bare + 0.05, cloud.g));
   vec3 coat = kPlaster * (0.65 + 0.7 * cloud.r) * (1.0 - 0.25 * rim);
   albedo = mix(albedo, coat, plaster);
-  vec2 slope = (mix(tile.ba, cloud.ba, plaster) - 0.5) * (2.0 * kSteepest * finish.y);
+  vec2 slope = (mix(tile.ba, cloud.ba, plaster) - 0.5) * (2.0 * kMaxSlope * finish.y);
 
 #ifdef BLOCKS
-  // Old edges are worn, and open joints between blocks dark. Both are spread over a pixel where
-  // that is wider, by how much of it they cover.
+  // Original edges are worn, and joints between blocks are dark. A joint narrower than a pixel is
+  // weighted by the part of the pixel that it covers.
   vec3 to_sides = min(rest - low, high - rest) + 1e4 * step(0.7, a);
   float edge = min(to_sides.x, min(to_sides.y, to_sides.z)) + 0.012 * (cloud.r - 0.5);
   float half_pixel = 0.5 * length(rest - eye_rest) / lens.y + 1e-4;
@@ -114,7 +113,7 @@ void main() {
 #endif
 
 #ifdef PAINTED
-  // A file's own colours in place of the material's; of that, a little of the grain is left.
+  // The colours of a mesh file replace those of the material; some of the grain is kept.
   vec3 shown = texture(pictures, vec3(picture_uv, max(paint.w - 1.0, 0.0))).rgb;
   shown = shown * (shown * (shown * 0.305306011 + 0.682171111) + 0.012522878);  // from sRGB
   if (paint.w >= 0.0) {
@@ -139,7 +138,7 @@ void main() {
   vec3 from_eye = rest - eye_rest;
   float metres = length(from_eye);
 #ifdef SHINY
-  // Metal has little colour of its own, but tints what it mirrors.
+  // Metal reflects little diffusely and tints its specular reflections.
   vec3 view = from_eye / metres;
   vec3 mirrored = reflect(view, bumped);
   float grazing = 1.0 - max(-dot(view, bumped), 0.0);
@@ -152,9 +151,9 @@ void main() {
   shine *= shine;
   shine *= shine;
   float sharp = shine * shine * shine;
-  // Rough where the weather has been at it: there it is duller, and its horizon softer.
+  // Weathered metal is rougher: its reflections are weaker and blurred.
   float rough = smoothstep(0.35, 0.8, cloud.g + 0.3 * (tile.r - 0.5));
-  float drawn = texture(tiles, vec3(uv * vec2(1.9, 0.07), kCloudLayer)).r - 0.5;  // as steel is drawn
+  float drawn = texture(tiles, vec3(uv * vec2(1.9, 0.07), kCloudLayer)).r - 0.5;  // drawing marks of steel
   vec3 tint = min(1.5 * first_color.rgb * (0.96 + 0.08 * tile.r + 0.2 * drawn), vec3(1.0));
   vec3 mirror = mix(tint, vec3(1.0), fresnel);
   vec3 world = mirrored_at(dot(mirrored, up_rest) + 0.2 * drawn * (1.0 - grazing), sunward,

@@ -1,17 +1,17 @@
-// Light, sky and eye are turned into the piece's rest frame here, so that the fragment shader
-// works in the frame its textures live in.
+// Vertex of a piece. The directions to sun and sky and the eye are transformed to the rest frame of
+// the piece, in which its textures are defined.
 uniform samplerBuffer materials;  // material_rows(), then Pictures::rows()
 #ifdef PAINTED
 layout(location = 3) in vec2 uv;
-layout(location = 4) in uint paint_number;  // from 1; 0: none
+layout(location = 4) in uint paint_number;  // from 1; 0 for none
 
 out vec2 picture_uv;
-flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none, -1: not painted
-flat out vec4 detail;  // layers of relief and gloss from 1, 0: none; roughness, -1: no gloss; metallic
+flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none, -1: no paint
+flat out vec4 detail;  // layers of relief and gloss from 1, 0: none; roughness, -1: no gloss; metalness
 #endif
 
 #ifdef BLOCKS
-flat out vec3 low;   // sides of the block: far off where it was broken
+flat out vec3 low;   // sides of the block; 1e4 m away where it is broken
 flat out vec3 high;
 #endif
 
@@ -21,8 +21,8 @@ out vec3 shadow;
 flat out vec3 sun_rest;
 flat out vec3 up_rest;
 flat out vec3 eye_rest;
-flat out vec4 first_color;   // w: tiles a metre
-flat out vec4 second_color;  // w: plaster holds where the weather's noise exceeds this
+flat out vec4 first_color;   // w: tiles per metre
+flat out vec4 second_color;  // w: value of the weathering noise above which there is plaster
 flat out vec3 finish;        // tile layer, bump, contrast
 
 void main() {
@@ -37,7 +37,7 @@ void main() {
   up_rest = back[1];
   eye_rest = piece_.origin - back * piece_.translation;
 
-  // The shadow is looked up a little off the face, more where light grazes it.
+  // The shadow map is sampled at an offset along the normal, larger at grazing light.
   float facing = clamp(dot(normal, sun_rest), 0.0, 1.0);
   vec3 off = piece_.rotation * normal * (to_sun.w * (0.6 + 2.2 * (1.0 - facing)));
   shadow = (shadow_of_eye * vec4(place + off, 1.0)).xyz;

@@ -1,4 +1,4 @@
-// The GLSL sources of this folder, compiled in as strings (sunder_embed in cmake/Sunder.cmake).
+// The GLSL sources of this folder, embedded as strings (sunder_embed in cmake/Sunder.cmake).
 #pragma once
 
 namespace sunder::render::shader_sources {

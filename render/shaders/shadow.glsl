@@ -1,4 +1,4 @@
-// How much of the sun reaches a place; after common.glsl.
+// Sampling of the sun's shadow map; after common.glsl.
 uniform sampler2DShadow shadow_map;
 
 float sunlit(vec3 shadow) {

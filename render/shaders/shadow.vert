@@ -1,4 +1,4 @@
-// Depth of the pieces as a light sees them; LIGHT is the matrix.
+// Depth of a piece in a shadow map; LIGHT is the matrix.
 void main() {
   Piece piece = this_piece();
   vec3 place = piece.rotation * position + piece.translation;

@@ -13,7 +13,7 @@
 namespace sunder::app {
 namespace {
 
-/// The finite numbers of "1,2.5,3"; none if anything else stands there.
+/// Returns the finite numbers of a text such as "1,2.5,3"; none if it has anything else.
 std::vector<double> numbers(std::string_view text, char between) {
   std::vector<double> found;
   for (bool more = true; more;) {
@@ -28,7 +28,7 @@ std::vector<double> numbers(std::string_view text, char between) {
   return found;
 }
 
-/// A pattern spec "kind:sizes" under way.
+/// A pattern "kind:sizes" while it is parsed.
 struct Spec {
   const std::string& text;
   std::vector<double> sizes;
@@ -94,7 +94,7 @@ PatternSpec parse_built_in(const std::string& text, const std::string& kind) {
 
 bool is_none(const std::string& path) { return path.empty() || path == "-"; }
 
-/// Whether a file is, or will be, where the other is; of a folder that is replaced, or in it.
+/// Returns true if writing the output would overwrite `file`, or delete it with its folder.
 bool is_overwritten(const std::string& file, const NamedFile& output) {
   namespace fs = std::filesystem;
   std::error_code error;

@@ -1,4 +1,4 @@
-// Arguments that are more than a word or a number.
+// Parses and checks arguments of several numbers, patterns and files.
 #pragma once
 
 #include <string>
@@ -10,27 +10,27 @@
 
 namespace sunder::app {
 
-/// "x,y,z"; throws InputError naming `flag` for anything else.
+/// Parses "x,y,z". Throws InputError that names `flag` for anything else.
 Vec3 parse_point(const std::string& flag, const std::string& text);
 
-/// Puts the "WIDTHxHEIGHT" of --size into the options. Throws InputError for anything else.
+/// Parses "WIDTHxHEIGHT" of --size into the options. Throws InputError for anything else.
 void parse_size(const std::string& text, render::RenderOptions& options);
 
 /// A file that an option names.
 struct NamedFile {
   std::string option;
   std::string path;
-  bool replaces_folder = false;  ///< Of an output: all that lies in its folder goes.
+  bool replaces_folder = false;  ///< True if writing an output deletes all files in its folder.
 };
-/// Throws InputError if something that is to be written is what is read, by whatever name, or if
-/// two outputs are one file. Empty names and "-" are none; devices and pipes stay what they are.
+/// Throws InputError if an output would overwrite an input, by whatever path, or two outputs are
+/// one file. Empty paths and "-" are ignored, as are devices and pipes as outputs.
 void check_files(const std::vector<NamedFile>& writes, const std::vector<NamedFile>& reads);
 
-/// What parse_pattern() understands.
+/// The syntax of parse_pattern().
 inline constexpr const char* kPatternHelp =
     "voronoi:N[,FALLOFF] | web:RINGSxSPOKES | radial:N | brick:X,Y,Z | slabs:N | grid:N (N^3 "
     "cells) | an .obj file of convex cells, one a group";
-/// A pattern for --pattern. Throws InputError that says what is allowed.
+/// Parses the pattern of --pattern. Throws InputError with the syntax for anything else.
 PatternSpec parse_pattern(const std::string& text);
 
 }  // namespace sunder::app

@@ -1,8 +1,8 @@
-// sunder bench: frame timing that a stranger can repeat, gated by the state: a faster run that
-// simulates something else is no faster run. How to read it: bench/README.md.
+// sunder bench: repeatable frame timing. The state hash of every run must match, as timings of
+// different simulations cannot be compared. bench/README.md explains the reports.
 //
-// Read first: bench(), then measure(). Every run is a process of its own and leaves an object of
-// figures; everything reported is made of those.
+// Read first: bench(), then measure(). Every run is a process of its own and returns an object of
+// figures, from which all reports are made.
 #include <sched.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/io/figures.h"
-#include "scenes/app/apart.h"
+#include "scenes/app/child_process.h"
 #include "scenes/app/run.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/features.h"
@@ -36,15 +36,15 @@ namespace {
 using bench::TimedRun;
 using bench::Verdict;
 
-/// A scene, as it is, without a feature, or by another program, and what its repeats came to.
+/// A scene to time, maybe without a feature or by another program, and the figures of its repeats.
 struct Timed {
   TimedRun run;
-  std::string program;                    ///< Empty: this one.
-  std::vector<std::string> repeats = {};  ///< As JSON, for as long as other runs copy this process.
+  std::string program;  ///< Path of the other program; empty: this one.
+  /// Figures as JSON text, which is parsed after all runs, as these are forks of this process.
+  std::vector<std::string> repeats = {};
 };
 
-/// What there is to run, in the order of a turn. Loads every scene: what is wrong with the input is
-/// known before anything runs.
+/// Returns the runs of a turn, in order. Loads every scene, to find errors before anything runs.
 std::vector<Timed> timed_runs(const BenchOptions& options) {
   std::vector<Timed> all;
   std::set<std::string> names;
@@ -74,7 +74,7 @@ std::string title_of(const Timed& timed) {
                                    : timed.run.scene + " without " + timed.run.without;
 }
 
-/// Writes the figures of a run to the file; answers an exit code.
+/// Carries out a run in this process and writes its figures to the file. Returns an exit code.
 int run_here(const BenchOptions& options, const Timed& timed, bool warn, std::FILE* file) {
   try {
     options.apply();
@@ -86,8 +86,8 @@ int run_here(const BenchOptions& options, const Timed& timed, bool warn, std::FI
   }
 }
 
-/// Becomes the other program, which writes its figures to the file.
-int become(const BenchOptions& options, const Timed& timed, std::FILE* file) {
+/// Replaces this process by the other program, with the file as output. Returns 1 if that fails.
+int exec_program(const BenchOptions& options, const Timed& timed, std::FILE* file) {
   std::vector<std::string> words = {timed.program,   "simulate",
                                     timed.run.scene, "--quiet",
                                     "--json",        "-",
@@ -114,17 +114,17 @@ std::string text_of(std::FILE* file) {
   return text;
 }
 
-/// From now on this process runs on that processor alone.
-void stay_on(int processor) {
+/// Restricts this process to one processor.
+void pin_to(int processor) {
   cpu_set_t set;
   CPU_ZERO(&set);
   CPU_SET(processor, &set);
   sched_setaffinity(0, sizeof set, &set);
 }
 
-/// Their figures as JSON; none if a stop signal came. Each in a process of its own, so that its
-/// peak memory is its own; several at once on one processor, so that what slows it, such as others
-/// at the memory, slows all alike.
+/// Carries out runs and returns their figures as JSON; none if a stop signal was caught. Each run
+/// has a process of its own, so that its peak memory is measured alone. Several runs share one
+/// processor at the same time, so that disturbances, such as memory traffic, affect all equally.
 std::vector<std::string> run_once(const BenchOptions& options, std::span<const Timed> runs,
                                   bool warn) {
   std::vector<File> files;
@@ -135,30 +135,30 @@ std::vector<std::string> run_once(const BenchOptions& options, std::span<const T
     std::FILE* const file = files.back().get();
     if (!file) throw FileError("no temporary file can be made: set TMPDIR to where there is room");
     works.emplace_back([&options, &timed, warn, file, processor] {
-      if (processor >= 0) stay_on(processor);
+      if (processor >= 0) pin_to(processor);
       return timed.program.empty() ? run_here(options, timed, warn, file)
-                                   : become(options, timed, file);
+                                   : exec_program(options, timed, file);
     });
   }
-  const std::vector<Ended> ended = run_apart(works);
+  const std::vector<ProcessResult> ended = run_in_child(works);
   if (stop_signal() != 0) return {};
   std::vector<std::string> figures;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (ended[i].signal != 0 || ended[i].exit_code != 0) {
-      throw std::runtime_error(title_of(runs[i]) + " has no timing: " + ended[i].how());
+      throw std::runtime_error(title_of(runs[i]) + " has no timing: " + ended[i].description());
     }
     figures.push_back(text_of(files[i].get()));
   }
   return figures;
 }
 
-/// Measurements: an object a scene, and those of the other program, if there is one. Scenes of
-/// which nothing was measured before a stop signal are left out.
+/// Measurements: one object for each scene, and those of the other program, if there is one. Scenes
+/// that were not measured before a stop signal are left out.
 struct Measured {
   std::vector<Figures> scenes, others;
 };
 
-/// The median of the repeats.
+/// Returns the median of the repeats.
 Figures median_of(const Timed& timed) {
   std::vector<Figures> repeats;
   for (const std::string& text : timed.repeats) {
@@ -167,9 +167,9 @@ Figures median_of(const Timed& timed) {
   return bench::median_of(repeats);
 }
 
-/// Repeats go in turns, everything once a turn, so that what slows the machine for a while slows
-/// all of it; a scene by this program and by the other go at once, if by one thread each. Ends
-/// early when a stop signal is caught.
+/// Repeats all runs in turns, each run once in a turn, so that a temporary slowdown of the machine
+/// affects all of them. Runs of a scene by this program and by the other are carried out at the
+/// same time, if each has one thread. Ends early when a stop signal is caught.
 void repeat(const BenchOptions& options, std::vector<Timed>& all) {
   const int turns = options.warm_up + options.repeats;
   WorkProgress progress("bench", options.quiet);
@@ -189,7 +189,7 @@ void repeat(const BenchOptions& options, std::vector<Timed>& all) {
 }
 
 Measured measure(const BenchOptions& options) {
-  set_threads(1);  // a process that has begun others cannot be copied
+  set_threads(1);  // run_in_child() forks, which a process with threads must not
   std::vector<Timed> all = timed_runs(options);
   catch_stop_signals();
   repeat(options, all);
@@ -214,7 +214,7 @@ std::vector<Figures> read_timings(const std::string& file) {
   return bench::scenes_of(parse_figures(scenes::read_text(file), file), file);
 }
 
-/// The part by which a stage may be slower; none if it is not asked about.
+/// Returns the fraction of --fail-slower by which a stage may be slower; none without the option.
 std::optional<double> fail_slower_of(const BenchOptions& options) {
   if (options.fail_slower.empty()) return std::nullopt;
   if (options.compare.empty() && options.against.empty()) {
@@ -237,7 +237,7 @@ void check_program(const std::string& program) {
 int bench(const BenchOptions& options) {
   const std::optional<double> fail_slower = fail_slower_of(options);
   check_program(options.against);
-  bench::HashBook book = bench::read_hashes(options.hashes);
+  bench::StateHashes book = bench::read_hashes(options.hashes);
   std::vector<Figures> old;
   if (!options.compare.empty()) old = read_timings(options.compare);
 
@@ -250,8 +250,8 @@ int bench(const BenchOptions& options) {
   const int stopped = stop_signal();
   const std::vector<Figures>& scenes = measured.scenes;
   if (stopped != 0) {
-    options.say(scenes.empty() ? "stopped before anything was timed; nothing is written\n"
-                               : "stopped; this is what was timed before:\n");
+    options.print(scenes.empty() ? "stopped before anything was timed; nothing is written\n"
+                                 : "stopped; this is what was timed before:\n");
     if (scenes.empty()) return 128 + stopped;
   }
   const std::string old_name = options.against.empty() ? options.compare : options.against;
@@ -260,15 +260,15 @@ int bench(const BenchOptions& options) {
     bench::accept_states(scenes, book);
     write_text(options.hashes, bench::format_hashes(book));
   }
-  std::vector<Verdict> verdicts = bench::judge_states(scenes, book, options.hashes);
+  std::vector<Verdict> verdicts = bench::compare_states(scenes, book, options.hashes);
   bench::Comparison comparison;
   if (!old_name.empty()) {
     comparison = bench::compare(scenes, old, old_name, fail_slower, !options.against.empty());
     verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
   }
 
-  options.say(bench::timing_table(scenes) + bench::features_table(scenes) +
-              bench::changes_table(comparison.changes) + bench::verdict_lines(verdicts, false));
+  options.print(bench::timing_table(scenes) + bench::features_table(scenes) +
+                bench::changes_table(comparison.changes) + bench::verdict_lines(verdicts, false));
   options.write_json(format_figures(bench::document_of(scenes)));
   if (!options.junit.empty()) write_text(options.junit, bench::junit_xml("bench", verdicts));
   if (!options.page.empty()) {

@@ -1,5 +1,4 @@
-// sunder list: the scenes, one line each; sunder check: loads and validates some, without running
-// them.
+// sunder list: lists the scenes. sunder check: loads and validates scenes without running them.
 #include "engine/base/check.h"
 
 #include <cstdio>
@@ -12,14 +11,15 @@ namespace sunder::app {
 
 int list(const ListOptions& options) {
   if (options.keys) {
-    options.say(scenes::key_reference());
+    options.print(scenes::key_reference());
     return 0;
   }
   Figures figures;
   std::size_t index = 0;
   for (const scenes::CatalogEntry& entry : scenes::catalog()) {
-    options.say(entry.name + std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') +
-                entry.description + "\n");
+    options.print(entry.name +
+                  std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') +
+                  entry.description + "\n");
     const std::string at = "/scenes/" + std::to_string(index++);
     figures[at + "/name"] = entry.name;
     figures[at + "/file"] = entry.file.string();
@@ -29,7 +29,7 @@ int list(const ListOptions& options) {
   return 0;
 }
 
-// Every scene is looked at, also after one that is wrong.
+// Checks all scenes, also after one with an error.
 int check(const CheckOptions& options) {
   Figures figures;
   int wrong = 0;
@@ -41,9 +41,9 @@ int check(const CheckOptions& options) {
       const Scene scene = scenes::load_scene(name, options.load);
       std::size_t convexes = 0;
       for (const Solid& solid : scene.solids) convexes += solid.compound.convexes.size();
-      options.say(name + ": good (" + std::to_string(scene.solids.size()) + " solids of " +
-                  std::to_string(convexes) + " convexes, " +
-                  std::to_string(scene.balls.size() + scene.shots.size()) + " balls)\n");
+      options.print(name + ": good (" + std::to_string(scene.solids.size()) + " solids of " +
+                    std::to_string(convexes) + " convexes, " +
+                    std::to_string(scene.balls.size() + scene.shots.size()) + " balls)\n");
       for (const std::string& warning : scenes::run_info(scene, options.load.preset).warnings)
         std::fprintf(stderr, "warning: %s: %s\n", name.c_str(), warning.c_str());
       figures[at + "/good"] = true;

@@ -1,4 +1,4 @@
-// The options of every command.
+// Declares the options of every command. Read first: parse_command_line().
 #include "scenes/app/command_line.h"
 
 #include <span>
@@ -44,7 +44,7 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.add_changes();
 }
 
-/// What is seen of a frame.
+/// Adds the options of how a frame is drawn.
 void add_looks(CLI::App* app, render::RenderOptions& options) {
   app->add_flag("--hud", options.hud, "Frame number, time and counts in the corner");
   app->add_option("--view-mode", options.view_mode,
@@ -206,7 +206,7 @@ constexpr const char* kMeshHelp =
     "A file (.obj .ply .stl .off .gltf .glb), or a built-in solid: box:X,Y,Z column:R,H torus:R,r "
     "grid:NX,NY,NZ voronoi:N hall:N, or the built-in mesh statue:N, of N triangles";
 
-/// How a mesh from a file is decomposed.
+/// Adds the options of the decomposition of a mesh.
 void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
   app->add_option("--nodes", options.nodes,
                   "Of a file's decomposition: how many, or a file of x y z a line")
@@ -220,7 +220,7 @@ void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
       ->capture_default_str();
 }
 
-/// Where a command on a mesh writes what it made.
+/// Adds the options of the output of a command on a mesh, and declares its input files.
 template <class Options>
 void add_solids_output(Subcommand<Options>& command) {
   CLI::App* app = command.app;
@@ -335,7 +335,7 @@ void add_golden(CLI::App& program, Command& chosen) {
                    "File or name of a scene, or X.frame: a golden that draws the frame of another")
       ->required();
   record.app->add_option("FRAME", record.options->frame, "Which frame of a scene")
-      ->check(from_to(0, kMostFrames));
+      ->check(from_to(0, kMaxFrames));
   record.app->add_option("--size", record.options->size, "Pixels")
       ->type_name("WxH")
       ->capture_default_str();

@@ -1,12 +1,13 @@
-// From the words of a command line to a command.
+// Parses the command line of the program.
 #pragma once
 
 #include <functional>
 
 namespace sunder::app {
 
-/// What to do; answers the program's exit code. Help and wrong use are printed here and become
-/// commands that do nothing but answer 0 and 2.
+/// Returns the command of a command line; calling it returns the program's exit code. Prints help
+/// and errors of use, and then the command only returns 0 or 2. Throws InputError for unknown
+/// words.
 std::function<int()> parse_command_line(int argc, char** argv);
 
 }  // namespace sunder::app

@@ -10,17 +10,17 @@
 namespace sunder::app {
 
 void CommonOptions::apply() const {
-  constexpr int kMany = 4;  // a processor
+  constexpr int kMaxThreadsPerProcessor = 4;
   set_threads(0);
   const int processors = sunder::threads();
   set_threads(threads);
-  if (threads > kMany * processors) {
+  if (threads > kMaxThreadsPerProcessor * processors) {
     std::fprintf(stderr, "warning: --threads %d on %d processors: they wait for each other\n",
                  threads, processors);
   }
 }
 
-void CommonOptions::say(const std::string& text) const {
+void CommonOptions::print(const std::string& text) const {
   if (!quiet && json != "-") std::fputs(text.c_str(), stdout);
 }
 

@@ -1,5 +1,4 @@
-// The commands of the program and what each can be told. How a command line says it is in
-// command_line.cpp.
+// The commands of the program and their options. command_line.cpp parses the options.
 #pragma once
 
 #include <optional>
@@ -13,7 +12,7 @@
 
 namespace sunder::app {
 
-/// Every command has these.
+/// The options of every command.
 struct CommonOptions {
   int threads = 0;
   bool quiet = false;
@@ -21,15 +20,16 @@ struct CommonOptions {
 
   /// Sets the threads of the whole program.
   void apply() const;
-  /// Text for people: on stdout, unless it is quiet or JSON goes there.
-  void say(const std::string& text) const;
-  /// To the file (under a temporary name first) or, for "-", to stdout; nothing without --json.
+  /// Prints text for the user on stdout, unless --quiet is given or JSON is written there.
+  void print(const std::string& text) const;
+  /// Writes JSON to the file of --json, under a temporary name first, or to stdout for "-"; does
+  /// nothing without --json. Throws FileError.
   void write_json(const std::string& text) const;
 };
 
-/// Folder of the goldens and of the stored states: that of the source tree if the program runs
-/// where it was built, else tests/golden in the working directory. A program that was installed or
-/// copied must not change the tree that it was built from.
+/// Returns the folder of the goldens and of the stored state hashes: that of the source tree if the
+/// program runs in the folder where it was built, otherwise tests/golden in the working directory.
+/// A program that was installed or copied must not change the tree that it was built from.
 std::string goldens_folder();
 
 struct ListOptions : CommonOptions {
@@ -44,68 +44,68 @@ struct CheckOptions : CommonOptions {
 struct SimulateOptions : CommonOptions {
   std::string scene;
   scenes::LoadOptions load;
-  int frames = -1;     ///< All.
+  int frames = -1;     ///< Index of the last frame; -1: to the end of the scene.
   std::string take;    ///< File to record to; empty: none.
-  std::string verify;  ///< Take to compare with; empty: none.
+  std::string verify;  ///< Recording to compare with; empty: none.
   std::string trace;   ///< File for spans of all threads; empty: none.
 };
 
 struct RenderOptions : CommonOptions {
-  std::string scene;  ///< Or a stored frame, or a take.
+  std::string scene;  ///< File or name of a scene, or file of a stored frame or recording.
   scenes::LoadOptions load;
   bool preset_given = false;
   std::string output;
-  std::string frames;          ///< "A:B"
-  std::string view = "fixed";  ///< As render/camera.h has it, or a file of its path.
+  std::string frames;          ///< "A:B", first and last frame; empty: all.
+  std::string view = "fixed";  ///< A camera of render/camera.h, or the file of a camera path.
   double speed = 1;
-  int sheet = 0;     ///< Pictures of a contact sheet; 0: none.
-  std::string size;  ///< Empty: what is usual.
+  int sheet = 0;     ///< Number of pictures of a contact sheet; 0: none.
+  std::string size;  ///< "WIDTHxHEIGHT"; empty: the default.
   bool resume = false;
   render::RenderOptions render;
 };
 
 struct BenchOptions : CommonOptions {
-  BenchOptions() { threads = 1; }  ///< Waiting costs time too.
+  BenchOptions() { threads = 1; }  ///< Threads that wait for each other would count as time.
   std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
   scenes::LoadOptions load;
-  int frames = bench::kStateFrames;  ///< Or to the end of the scene.
+  int frames = bench::kStateFrames;  ///< Index of the last frame, if the scene is that long.
   int repeats = 5;
-  int warm_up = 1;          ///< Turns before them, not counted.
-  bool features = false;    ///< Also without each feature that can be turned off.
-  std::string from;         ///< Timings to read; empty: what is run.
-  std::string compare;      ///< Older timings; empty: none.
-  std::string against;      ///< Another program, timed in the same turns; empty: none.
+  int warm_up = 1;          ///< Turns before the repeats, which are not counted.
+  bool features = false;    ///< True to also time scenes without each feature they have.
+  std::string from;         ///< File of timings to report on; empty: run the scenes.
+  std::string compare;      ///< File of older timings; empty: none.
+  std::string against;      ///< Another program to time in the same turns; empty: none.
   std::string fail_slower;  ///< "10%"; empty: never.
   std::string hashes = goldens_folder() + "/hashes.txt";
   bool accept = false;
-  std::string junit;  ///< File to write; empty: none, as for:
-  std::string page;
+  std::string junit;  ///< File of JUnit XML to write; empty: none.
+  std::string page;   ///< HTML file to write; empty: none.
 };
 
 struct TradeOptions : CommonOptions {
-  TradeOptions() { threads = 1; }  ///< Waiting costs time too; shards use the other processors.
+  TradeOptions() { threads = 1; }  ///< As in BenchOptions; shards use the other processors.
   std::vector<std::string> scenes;
-  scenes::LoadOptions load;  ///< Of it, `set` alone: points have presets.
+  scenes::LoadOptions load;  ///< Only `set` is used; each point has a preset.
   std::string output;
-  std::string points;  ///< File; empty: the grid of the program.
+  std::string points;  ///< File of points; empty: the default grid.
   std::vector<std::string> switches;
   int seeds = 8;
-  int frames = -1;    ///< All.
+  int frames = -1;    ///< Index of the last frame; -1: to the end of the scene.
   std::string shard;  ///< "I/N"; empty: all runs.
   bool list = false;
   bool merge = false;
 };
 
 struct FractureOptions : CommonOptions {
-  std::string mesh;  ///< Or a case file, which holds everything else.
+  std::string mesh;  ///< Mesh to break, or a case file with a compound and its break.
   scenes::MeshOptions solid;
   std::string pattern;
-  std::string at;                  ///< "x,y,z"; empty: the middle of the bounding box.
-  std::optional<double> radius_m;  ///< None: everything breaks.
+  std::string at;                  ///< Impact "x,y,z"; empty: the middle of the bounding box.
+  std::optional<double> radius_m;  ///< Radius of the impact sphere; none: everything breaks.
   std::uint64_t seed = 1;
   std::string output;
-  std::string walls = "remove";   ///< Or "keep".
-  std::optional<double> explode;  ///< None: a picture shows its pieces apart.
+  std::string walls = "remove";   ///< "remove" or "keep" faces between convexes of a piece.
+  std::optional<double> explode;  ///< Distance factor of pieces; none: the default of the output.
 };
 
 struct VacdOptions : CommonOptions {
@@ -113,7 +113,7 @@ struct VacdOptions : CommonOptions {
   scenes::MeshOptions solid;
   bool watch = false;
   std::string output;
-  std::optional<double> explode;  ///< None: a picture shows its pieces apart.
+  std::optional<double> explode;  ///< Distance factor of pieces; none: the default of the output.
 };
 
 struct HullOptions : CommonOptions {
@@ -122,20 +122,21 @@ struct HullOptions : CommonOptions {
 };
 
 struct GoldenOptions : CommonOptions {
-  std::vector<std::string> names;  ///< None: all.
+  std::vector<std::string> names;  ///< Goldens; empty: all.
   std::string folder = goldens_folder();
   std::string out = "out/golden";
   std::string gl = "auto";
-  bool full = false;  ///< Whole simulations, too.
-  std::string junit;  ///< File to write; empty: none.
-  std::string scene;  ///< Of golden_record, or a stored frame; as are:
+  bool full = false;  ///< True to also simulate whole scenes.
+  std::string junit;  ///< File of JUnit XML to write; empty: none.
+  // Options of golden_record() alone.
+  std::string scene;  ///< File or name of a scene, or file of a stored frame.
   scenes::LoadOptions load;
   int frame = -1;
   std::string size = "640x360";
   render::RenderOptions render;
 };
 
-/// Each answers the program's exit code: 0 done, 1 failed; bad input is an InputError.
+/// The commands return the exit code, 0 for success or 1, and throw InputError for wrong input.
 int list(const ListOptions& options);
 int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);
@@ -150,7 +151,7 @@ int golden_report(const GoldenOptions& options);
 int golden_accept(const GoldenOptions& options);
 int golden_record(const GoldenOptions& options);
 
-/// Writes a text file under a temporary name and renames it. Throws FileError.
+/// Writes a text file under a temporary name and then renames the file. Throws FileError.
 void write_text(const std::string& path, const std::string& text);
 
 }  // namespace sunder::app

@@ -1,4 +1,4 @@
-// sunder fracture: one break of one solid, with everything measured that a break must keep.
+// sunder fracture: breaks one solid once, and measures all quantities that a break must conserve.
 //
 // Read first: fracture_mesh(), then carry_out().
 #include "fracture/fracture.h"
@@ -32,46 +32,47 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kEvent = 1;
-/// A brick is at least this part of the largest convex.
-constexpr double kSmallestBrick = 1e-5;
-/// How often a break is timed, and when that is enough.
-constexpr int kMostTimes = 20;
-constexpr double kLongEnough_ms = 200;
+/// Smallest volume of a brick of the pattern, as a fraction of the largest convex's volume.
+constexpr double kMinBrickFraction = 1e-5;
+/// A break is timed at most kMaxTimings times, and no more after kEnoughTime_ms in all.
+constexpr int kMaxTimings = 20;
+constexpr double kEnoughTime_ms = 200;
 
-/// The break and what came of it.
+/// The result of a break.
 struct Broken {
   fracture::Audit before, after;
   BreakPlan plan;
-  std::optional<fracture::DoubledVolume> doubled;  ///< Of the volume, by overlaps.
+  std::optional<fracture::DoubledVolume> doubled;  ///< Volume that overlaps count twice.
   double prepare_ms = 0;
   double total_ms = 0;
 };
 
-/// What stretches a pattern so that all of it falls on a solid that reaches so far from the impact,
-/// however that is shaped. The pattern's axes are those of `rotation`.
+/// Returns the stretch of a pattern that fits its extents to a solid that extends up to `reach`
+/// from the impact along each axis. The pattern's axes are those of `rotation`.
 Mat3 stretch_onto(const Vec3& reach, const Quat& rotation) {
   const Vec3 half_P = (rotation.conjugate() * reach).cwiseAbs();
   return Mat3((half_P / reach.norm()).asDiagonal());
 }
 
-/// Bricks that are slivers beside what they are to cut would be joined one by one again.
+/// Throws InputError for bricks so small that all their parts would be welded again.
 void check_bricks(const FractureOptions& options, const Vec3& brick_m, const Compound& compound) {
   double largest_m3 = 0;
   for (const ConvexPtr& convex : compound.convexes) {
     largest_m3 = std::max(largest_m3, convex->solid.volume_m3);
   }
-  if (brick_m.prod() >= kSmallestBrick * largest_m3) return;
+  if (brick_m.prod() >= kMinBrickFraction * largest_m3) return;
   throw InputError("--pattern " + options.pattern + ": such bricks are dust beside this solid; " +
                    "give larger ones");
 }
 
-/// What the flags ask for. The impact goes towards the middle, or down.
+/// Returns the break that the options describe. Its direction is towards the middle of the bounding
+/// box, or down if the impact is there.
 BreakCommand command_of(const FractureOptions& options, const Compound& compound) {
   const Box box = bounds(compound);
   Material material;
   material.pattern = parse_pattern(options.pattern);
   material.impact_radius_m = options.radius_m.value_or(kInfinity);
-  Hit hit;
+  StructureImpact hit;
   hit.point_R = options.at.empty() ? box.center() : parse_point("--at", options.at);
   const Vec3 inward = box.center() - hit.point_R;
   hit.direction_R =
@@ -102,7 +103,7 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
   return command;
 }
 
-/// One event on all parts of a solid that do not hang together; the structures stay as they are.
+/// Computes the break of all islands of a solid by one event. Does not change the structures.
 std::vector<BreakEdit> break_once(const std::vector<Structure>& structures,
                                   const fracture::ReadyBreak& ready, const BreakCommand& command) {
   constexpr std::size_t kManyParts = 16;
@@ -111,7 +112,7 @@ std::vector<BreakEdit> break_once(const std::vector<Structure>& structures,
     edits[i] = fracture::break_structure(structures[i], *ready.pattern, ready.placement,
                                          ready.sphere, command.event);
   };
-  if (structures.size() >= kManyParts) {  // small ones: side by side, each by one thread
+  if (structures.size() >= kManyParts) {  // many are small: in parallel, each by one thread
     for_chunks(structures.size(), 1,
                [&](std::size_t i, std::size_t, std::size_t) { break_part(i); });
   } else {
@@ -120,7 +121,7 @@ std::vector<BreakEdit> break_once(const std::vector<Structure>& structures,
   return edits;
 }
 
-/// Adds what became of one part.
+/// Applies the break of one island to its structure, and adds the result to the plan.
 void collect(Structure& structure, BreakEdit edit, BreakPlan& plan) {
   BreakPlan& loose = edit.loose;
   plan.clip_ms += loose.clip_ms;
@@ -135,11 +136,10 @@ void collect(Structure& structure, BreakEdit edit, BreakPlan& plan) {
   std::move(loose.pieces.begin(), loose.pieces.end(), std::back_inserter(plan.pieces));
 }
 
-/// What the mesh takes of all the work, and what the break does, for those who wait.
+/// Estimated fractions of all work after preparation of the mesh, and after the break.
 constexpr double kMeshShare = 0.7, kBrokenShare = 0.9;
 
-/// Carries the break out a few times and takes the fastest: the first finds memory and caches cold,
-/// and other programs get in the way of any.
+/// Carries out the break several times for the fastest: caches are cold in the first.
 Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProgress& progress) {
   progress("breaking", kMeshShare);
   Broken broken;
@@ -153,7 +153,7 @@ Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProg
   std::vector<BreakEdit> edits;
   const Stopwatch all;
   broken.total_ms = kInfinity;
-  for (int time = 0; time < kMostTimes && (time < 2 || all.ms() < kLongEnough_ms); ++time) {
+  for (int time = 0; time < kMaxTimings && (time < 2 || all.ms() < kEnoughTime_ms); ++time) {
     watch.lap_ms();
     std::vector<BreakEdit> again = break_once(structures, ready, command);
     if (watch.ms() >= broken.total_ms) continue;
@@ -221,15 +221,15 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
   return input_summary(solid) + text + doubled_summary(broken.doubled);
 }
 
-/// A solid, what breaks it, and what came of that.
+/// A solid, its break, and the result.
 struct Attempt {
   scenes::MeshSolid solid;
-  std::vector<Paint> paints;
+  std::vector<Appearance> paints;
   fracture::BreakCase example;
   Broken broken;
 
-  /// The share of the volume that was left whole because its parts did not add up.
-  double failed() const { return broken.plan.failed_m3 / broken.before.volume_m3; }
+  /// Returns the fraction of the volume in convexes that were left whole as they failed to break.
+  double failed_fraction() const { return broken.plan.failed_m3 / broken.before.volume_m3; }
 };
 
 fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOptions& solid_of,
@@ -238,7 +238,7 @@ fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOp
     if (options.pattern.empty()) {
       throw InputError("--pattern is missing: " + std::string(kPatternHelp));
     }
-    parse_pattern(options.pattern);  // before work that may take long
+    parse_pattern(options.pattern);  // finds errors before work that may take long
     scenes::MeshOptions mesh = solid_of;
     mesh.paints = &attempt.paints;
     mesh.progress = [&](const char* step, double share) { progress(step, kMeshShare * share); };
@@ -264,17 +264,18 @@ Attempt attempt_with(const FractureOptions& options, const scenes::MeshOptions& 
   return attempt;
 }
 
-/// Breaks the solid. Where more than a little of a mesh is left whole, it is decomposed anew with
-/// more nodes, whose smaller convexes fail by themselves; the attempt that leaves least is kept.
-Attempt break_well(const FractureOptions& options, WorkProgress& progress) {
-  constexpr double kLittle = 1e-4;  // share of the volume that may be left whole at once
-  constexpr int kMoreTimes = 2;
+/// Breaks the solid. If too much of a mesh is left whole, decomposes it again with more nodes, as
+/// less volume fails with a smaller convex. Returns the attempt that leaves the least volume whole.
+Attempt break_with_retries(const FractureOptions& options, WorkProgress& progress) {
+  constexpr double kMaxFailedFraction = 1e-4;  // of the volume
+  constexpr int kMaxRetries = 2;
   Attempt best = attempt_with(options, options.solid, progress);
-  // Nodes in a file, and a bound of convexes, are kept to.
+  // Nodes from a file and a given number of convexes are not changed.
   const bool may_have_more = best.solid.vacd && options.solid.convexes == 0 &&
                              scenes::vacd_options(options.solid).nodes.empty();
   std::size_t nodes = best.solid.compound.convexes.size();
-  for (int time = 0; time < kMoreTimes && may_have_more && best.failed() > kLittle; ++time) {
+  for (int time = 0;
+       time < kMaxRetries && may_have_more && best.failed_fraction() > kMaxFailedFraction; ++time) {
     nodes = std::min<std::size_t>(2 * nodes, fracture::kMostNodes);
     scenes::MeshOptions more = options.solid;
     more.nodes = std::to_string(nodes);
@@ -290,19 +291,19 @@ int fracture_mesh(const FractureOptions& options) {
   options.apply();
   check_output(options.output);
   std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
-  Attempt attempt = break_well(options, *progress);
+  Attempt attempt = break_with_retries(options, *progress);
   auto& [solid, paints, example, broken] = attempt;
   progress.reset();
   if (const BreakPlan& plan = broken.plan; plan.failed > 0)
     solid.warnings.push_back(
-        left_whole_warning(plan.failed, plan.failed_m3, broken.before.volume_m3) +
+        uncut_convexes_warning(plan.failed, plan.failed_m3, broken.before.volume_m3) +
         "; more --nodes may help");
-  options.say(summary(solid, broken));
+  options.print(summary(solid, broken));
   if (!options.output.empty()) {
     const std::size_t walled =
         write_solids(options.output, broken.plan.pieces, stone(), paints, options.explode,
                      options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
-    options.say("wrote " + options.output + "\n");
+    options.print("wrote " + options.output + "\n");
     if (walled > 0) {
       solid.warnings.push_back("inner walls are kept in " + std::to_string(walled) +
                                " pieces, whose surfaces would not close without them; other "

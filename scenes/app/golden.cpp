@@ -1,9 +1,9 @@
-// sunder golden: what must not change unasked: how stored frames are drawn, how their scenes are
-// seen, and what they simulate. A golden is a stored frame and the picture it gave, NAME.frame,
-// NAME.png and NAME.json in tests/golden, and states of the run that the frame is of, in
-// hashes.txt.
+// sunder golden: regression tests of drawing, views and simulation. A golden is a stored frame and
+// its picture, NAME.frame, NAME.png and NAME.json in tests/golden, and state hashes of the run that
+// the frame is from, in hashes.txt. A test fails if the drawing of the frame, the camera and
+// colours of its scene, or the states of the run change.
 //
-// Read first: golden_test(). `accept` is the one way to change what is held to be right.
+// Read first: golden_test(). Only `accept` changes the stored pictures and states.
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 using bench::Outcome;
 using bench::Verdict;
 
-/// Draws goldens, with a renderer for all that are drawn alike.
+/// Draws goldens; those with equal settings share a renderer.
 class Drawer {
  public:
   explicit Drawer(std::string gl) : gl_(std::move(gl)) {}
@@ -71,8 +71,8 @@ std::string size_of(const render::Image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height);
 }
 
-/// Draws it and compares with the baseline.
-Verdict judge_drawing(Drawer& drawer, GoldenResult& result) {
+/// Draws a golden and compares the picture with the baseline.
+Verdict check_drawing(Drawer& drawer, GoldenResult& result) {
   const Golden& golden = result.golden;
   Verdict verdict{golden.name, "drawing", Outcome::kFailed, {}};
   result.actual = drawer.draw(golden);
@@ -101,12 +101,11 @@ Verdict judge_drawing(Drawer& drawer, GoldenResult& result) {
   return verdict;
 }
 
-/// Whether the stored frame, which alone is drawn, still has the camera and the colours of its
-/// scene.
-Verdict judge_view(const Golden& golden) {
+/// Checks that the stored frame, which is drawn, still has the camera and colours of its scene.
+Verdict check_view(const Golden& golden) {
   const Stopwatch watch;
-  const std::string other = seen_otherwise(*read_frame(golden.frame_file()),
-                                           scenes::load_scene(golden.scene_file(), golden.load));
+  const std::string other = view_differences(*read_frame(golden.frame_file()),
+                                             scenes::load_scene(golden.scene_file(), golden.load));
   Verdict verdict{golden.name, "view", Outcome::kPassed, "as in the stored frame"};
   if (!other.empty()) {
     verdict.outcome = Outcome::kFailed;
@@ -126,26 +125,26 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
     GoldenResult& result = results.emplace_back();
     result.golden = read_golden(options.folder, name);
     const Stopwatch watch;
-    result.verdicts.push_back(judge_drawing(drawer, result));
+    result.verdicts.push_back(check_drawing(drawer, result));
     result.verdicts.back().seconds = 1e-3 * watch.ms();
     if (result.golden.is_simulated()) {
-      result.verdicts.push_back(judge_view(result.golden));
+      result.verdicts.push_back(check_view(result.golden));
       const std::string book = result.golden.hashes_file().string();
       const auto verdicts =
-          bench::judge_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
+          bench::compare_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
       result.verdicts.insert(result.verdicts.end(), verdicts.begin(), verdicts.end());
     }
-    options.say((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
+    options.print((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
     if (!result.passed()) failed += (failed.empty() ? "" : " ") + name;
     if (!result.drawing_passed()) {
       fs::create_directories(options.out);
       const fs::path picture = fs::path(options.out) / (name + ".png");
       render::write_png(picture, result.actual);
-      options.say("     what was drawn: " + picture.string() + "\n");
+      options.print("     what was drawn: " + picture.string() + "\n");
     }
   }
   if (!failed.empty()) {
-    options.say("If this is right: " + accept_command(options.folder, failed) + "\n");
+    options.print("If this is right: " + accept_command(options.folder, failed) + "\n");
   }
   if (!options.junit.empty()) {
     std::vector<Verdict> verdicts;
@@ -162,20 +161,21 @@ int exit_code(const std::vector<GoldenResult>& results) {
   return std::ranges::all_of(results, &GoldenResult::passed) ? 0 : 1;
 }
 
-/// A name is part of files' names, and of one in the book.
+/// Throws InputError for a name with other characters than letters, digits, _ and -. Names are
+/// parts of file names, and of keys in hashes.txt.
 void check_name(const std::string& name) {
   const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   if (!name.empty() && std::ranges::all_of(name, fits)) return;
   throw InputError("golden record \"" + name + "\": a name is of letters, digits, _ and -");
 }
 
-/// The frame of a golden as its scene gives it.
+/// Simulates the scene of a golden and returns its frame.
 Frame simulated_frame(const Golden& golden, bool quiet) {
   Scene scene = scenes::load_scene(golden.scene_file(), golden.load);
   const int last = last_frame(scene, golden.frame, "FRAME " + std::to_string(golden.frame));
   Progress progress("record " + scene.name, last, quiet);
   const render::ViewMode mode(golden.view_mode);
-  const auto simulation = make_simulation(std::move(scene), mode.looks_inside());
+  const auto simulation = make_simulation(std::move(scene), mode.needs_inspection());
   FramePtr frame;
   for (int i = 0; i <= last; ++i) {
     frame = simulation->next();
@@ -193,7 +193,7 @@ int golden_report(const GoldenOptions& options) {
   const std::vector<GoldenResult> results = compare_all(options);
   fs::create_directories(options.out);
   const fs::path page = fs::path(options.out) / "report.html";
-  std::vector<render::GoldenPicture> pictures;
+  std::vector<render::GoldenResult> pictures;
   for (const GoldenResult& r : results) {
     pictures.push_back({r.golden.name, r.passed(), r.sentence(), r.baseline, r.actual, r.difference,
                         r.golden.thresholds, r.golden.command(), r.golden.accept_command(),
@@ -204,11 +204,11 @@ int golden_report(const GoldenOptions& options) {
     }
   }
   write_text(page.string(), render::golden_report(pictures));
-  options.say("wrote " + page.string() + "\n");
+  options.print("wrote " + page.string() + "\n");
   return exit_code(results);
 }
 
-/// Changes what differs, and nothing else.
+/// Stores new pictures, frames and states where they differ, and leaves the others unchanged.
 int golden_accept(const GoldenOptions& options) {
   options.apply();
   Drawer drawer(options.gl);
@@ -216,33 +216,33 @@ int golden_accept(const GoldenOptions& options) {
     GoldenResult result;
     result.golden = read_golden(options.folder, name);
     Golden& golden = result.golden;
-    std::string said = "drawing as before";
-    const bool is_seen_otherwise =
-        golden.is_simulated() && judge_view(golden).outcome != Outcome::kPassed;
-    if (is_seen_otherwise) write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
-    if (judge_drawing(drawer, result).outcome != Outcome::kPassed || golden.hash.empty()) {
+    std::string message = "drawing as before";
+    const bool has_other_view =
+        golden.is_simulated() && check_view(golden).outcome != Outcome::kPassed;
+    if (has_other_view) write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
+    if (check_drawing(drawer, result).outcome != Outcome::kPassed || golden.hash.empty()) {
       golden.renderer = result.renderer;
       golden.cpu = cpu_name();
       golden.hash = pixel_hash(result.actual);
       render::write_png(golden.picture_file(), result.actual);
       write_golden(golden);
-      said = "drawing " + golden.hash;
+      message = "drawing " + golden.hash;
     }
-    if (is_seen_otherwise) said += ", frame anew";
+    if (has_other_view) message += ", frame anew";
     if (golden.is_simulated()) {
       const std::string file = golden.hashes_file().string();
-      const bench::HashBook before = bench::read_hashes(file);
-      bench::HashBook book = before;
+      const bench::StateHashes before = bench::read_hashes(file);
+      bench::StateHashes book = before;
       bench::accept_frames(golden.run(), book);
       if (book != before) write_text(file, bench::format_hashes(book));
-      said += book == before ? ", simulation as before" : ", simulation anew";
+      message += book == before ? ", simulation as before" : ", simulation anew";
     }
-    options.say("accepted " + name + ": " + said + "\n");
+    options.print("accepted " + name + ": " + message + "\n");
   }
   return 0;
 }
 
-// Stores a frame of a scene as the subject of a golden; its picture still has to be accepted.
+// Stores a frame of a scene as a golden, whose picture and states must still be accepted.
 int golden_record(const GoldenOptions& options) {
   options.apply();
   check_name(options.names.front());
@@ -272,11 +272,11 @@ int golden_record(const GoldenOptions& options) {
     if (options.frame >= 0)
       throw InputError("golden record " + golden.name + " " + options.scene +
                        ": a stored frame is one frame; leave out FRAME");
-    Drawer(options.gl).draw(golden);  // throws if it cannot be
+    Drawer(options.gl).draw(golden);  // throws if the frame cannot be drawn
   }
   write_golden(golden);
-  options.say("recorded " + golden.file(".json").string() +
-              "; look at it, then: " + golden.accept_command() + "\n");
+  options.print("recorded " + golden.file(".json").string() +
+                "; look at it, then: " + golden.accept_command() + "\n");
   return 0;
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostPixels = 8192;  // of a side, as --size
+constexpr int kMaxSide_px = 8192;  // as --size
 
 template <class T>
 T value(const Figures& figures, const std::string& place, const fs::path& file) {
@@ -43,7 +43,7 @@ int whole(const Figures& figures, const std::string& place, const fs::path& file
   return static_cast<int>(number);
 }
 
-/// A word of a command as a shell takes it.
+/// Returns a word quoted for a shell, if necessary.
 std::string quoted(const std::string& word) {
   const auto is_plain = [](unsigned char c) {
     return std::isalnum(c) != 0 ||
@@ -59,7 +59,7 @@ bool same_look(const Look& a, const Look& b) {
   return a.texture == b.texture && a.color == b.color;
 }
 
-/// The keys of [view] whose values differ.
+/// Returns the keys of [view] whose values differ.
 std::vector<std::string> different_keys(const View& a, const View& b) {
   std::vector<std::string> keys;
   const auto compare = [&](const char* key, const auto& x, const auto& y) {
@@ -139,8 +139,8 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
     golden.load.set.push_back(value<std::string>(figures, "/set/" + std::to_string(i), file));
   }
   golden.frame = whole(figures, "/frame", file, 0, std::numeric_limits<int>::max());
-  golden.width = whole(figures, "/width", file, 1, kMostPixels);
-  golden.height = whole(figures, "/height", file, 1, kMostPixels);
+  golden.width = whole(figures, "/width", file, 1, kMaxSide_px);
+  golden.height = whole(figures, "/height", file, 1, kMaxSide_px);
   golden.view_mode = value<std::string>(figures, "/view_mode", file);
   golden.hud = value<bool>(figures, "/hud", file);
   golden.thresholds.flip_mean = value<double>(figures, "/thresholds/flip_mean", file);
@@ -204,7 +204,7 @@ std::string format_results(const std::vector<GoldenResult>& results) {
     figures[at + "/flip_mean"] = result.difference.flip_mean;
     figures[at + "/worst_window_pixels"] = std::int64_t{result.difference.worst_window_pixels};
     figures[at + "/renderer"] = result.renderer;
-    figures[at + "/remade_by"] = result.golden.command();
+    figures[at + "/remake_command"] = result.golden.command();
     for (std::size_t j = 0; j < result.verdicts.size(); ++j) {
       const bench::Verdict& verdict = result.verdicts[j];
       const std::string of = at + "/verdicts/" + std::to_string(j);
@@ -216,18 +216,18 @@ std::string format_results(const std::vector<GoldenResult>& results) {
   return format_figures(figures);
 }
 
-std::string seen_otherwise(const Frame& stored, const Scene& scene) {
+std::string view_differences(const Frame& stored, const Scene& scene) {
   std::vector<std::string> names =
       different_keys(stored.view, along(scene.view_keys, scene.view, stored.time_s));
   const auto find = [&](const std::string& name) {
     return std::ranges::find(scene.materials, name, &Material::name);
   };
-  std::set<std::string> seen;  // materials
+  std::set<std::string> seen;  // materials in the frame
   for (const Instance& instance : stored.instances) {
     const MaterialIndex material = (*stored.meshes)[instance.mesh.value]->material;
     const std::string& name = (*stored.materials)[material.value].name;
     seen.insert(name);
-    // A body that is a solid yet, or what stands of one, has the number of the solid for a key.
+    // The key of a body that is a whole solid, or the remaining part of one, is the solid's index.
     const std::uint64_t key = stored.bodies[instance.body].key;
     if (key >= scene.solids.size()) continue;
     const Solid& solid = scene.solids[key];
@@ -244,13 +244,14 @@ std::string seen_otherwise(const Frame& stored, const Scene& scene) {
         !same_look(material.interior, now->interior))
       names.push_back("colours of " + material.name);
   }
-  const std::vector<Paint> none;
-  if (!std::ranges::equal(stored.paints ? *stored.paints : none, scene.paints, scenes::same_paint))
+  const std::vector<Appearance> none;
+  if (!std::ranges::equal(stored.paints ? *stored.paints : none, scene.paints,
+                          scenes::same_appearance))
     names.emplace_back("paints");
   std::string text;
-  std::set<std::string> told;
+  std::set<std::string> listed;
   for (const std::string& name : names) {
-    if (told.insert(name).second) text += (text.empty() ? "" : ", ") + name;
+    if (listed.insert(name).second) text += (text.empty() ? "" : ", ") + name;
   }
   return text;
 }

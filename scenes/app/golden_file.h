@@ -13,43 +13,45 @@
 
 namespace sunder::app {
 
-/// NAME.json: how frame and baseline were made, and how far a picture may be from it.
+/// NAME.json: the sources of the frame and of the baseline, and the allowed difference of a
+/// picture.
 struct Golden {
   std::filesystem::path folder;
   std::string name;
-  std::string scene;  ///< File (from the folder on) or name; or a stored frame, drawn differently.
+  /// File (relative to the folder) or name of a scene, or stored frame of another golden.
+  std::string scene;
   scenes::LoadOptions load;
-  int frame = 0;  ///< Of the scene.
+  int frame = 0;  ///< Index of the frame in the scene's run.
   int width = 640;
   int height = 360;
-  std::string view_mode = "materials";  ///< One that looks inside: the frame says what is there.
+  std::string view_mode = "materials";  ///< A view mode that needs an Inspection stores one.
   bool hud = false;
   render::Thresholds thresholds;
-  std::string hash;      ///< Of the baseline's pixels.
-  std::string renderer;  ///< That drew the baseline.
-  std::string cpu;       ///< On which.
+  std::string hash;      ///< Hash of the baseline's pixels.
+  std::string renderer;  ///< Renderer that drew the baseline.
+  std::string cpu;       ///< Processor on which the baseline was drawn.
 
   std::filesystem::path file(const char* extension) const { return folder / (name + extension); }
   std::filesystem::path picture_file() const { return file(".png"); }
   std::filesystem::path hashes_file() const { return folder / "hashes.txt"; }
-  /// Whether it is of a scene, and not another picture of a frame that a golden has.
+  /// Returns true for a golden of a scene, false for one of the stored frame of another golden.
   bool is_simulated() const { return !scene.ends_with(".frame"); }
-  /// The scene's file, if it lies where the golden says, or its name.
+  /// Returns the path of the file `scene` if there is one, otherwise `scene` itself, a name.
   std::string scene_file() const;
   std::filesystem::path frame_file() const;
-  /// What is simulated to be held against stored states.
+  /// Returns the run whose states are compared with the stored ones.
   bench::GuardedRun run() const { return {name, scene_file(), load, frame}; }
-  /// The commands that make it again, for a shell.
+  /// Returns the shell commands that make the golden again.
   std::string command() const;
   std::string accept_command() const;
 };
 
-/// That makes what there is now of these the baseline.
+/// Returns the command that makes the current pictures and states of goldens their baselines.
 std::string accept_command(const std::filesystem::path& folder, const std::string& names);
 
-/// Names of the goldens in a folder, sorted. Throws InputError if there are none.
+/// Returns the names of the goldens in a folder, sorted. Throws InputError if there are none.
 std::vector<std::string> golden_names(const std::filesystem::path& folder);
-/// Throws InputError if there is no such golden, naming those there are.
+/// Reads a golden. Throws InputError that lists the goldens if there is none of this name.
 Golden read_golden(const std::filesystem::path& folder, const std::string& name);
 void write_golden(const Golden& golden);
 
@@ -59,24 +61,24 @@ struct GoldenResult {
   render::Image actual;
   render::Difference difference;
   std::string renderer;
-  /// The first is on the drawing; if a scene is simulated, the next is on how that is seen, and the
-  /// others are on its simulations.
+  /// Verdict on the drawing; for a golden of a scene, then on its view and on each simulation.
   std::vector<bench::Verdict> verdicts;
 
   bool drawing_passed() const;
   bool passed() const;
-  /// Of drawing, scene and simulation, which are the same and how others differ.
+  /// Returns the results of drawing and simulation, and the texts of failed verdicts.
   std::string sentence() const;
 };
-/// As JSON.
+/// Returns the results as JSON.
 std::string format_results(const std::vector<GoldenResult>& results);
 
-/// Names of what is seen otherwise in a scene than in a frame that was stored of it: parts of its
-/// view, colours of its materials and paints, materials of its solids; empty if nothing is.
-std::string seen_otherwise(const Frame& stored, const Scene& scene);
-/// 16 hexadecimal digits over size and pixels.
+/// Returns the differences in appearance between a scene and a frame that was stored of it, as a
+/// list of names: keys of the view, colours of materials, appearances from files, materials of
+/// solids; empty if there are none.
+std::string view_differences(const Frame& stored, const Scene& scene);
+/// Returns a hash of size and pixels as 16 hexadecimal digits.
 std::string pixel_hash(const render::Image& image);
-/// The same picture in a smaller file: meshes that no instance shows are dropped.
+/// Returns a frame without the meshes that no instance shows, for a smaller file.
 Frame without_unused_meshes(const Frame& frame);
 
 }  // namespace sunder::app

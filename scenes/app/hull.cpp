@@ -13,13 +13,14 @@
 namespace sunder::app {
 namespace {
 
-/// Farther outside than this part of the size counts as not enclosed.
-constexpr double kOutside = 1e-9;
+/// Tolerance of encloses(): largest distance of a point outside the hull, relative to its size.
+constexpr double kOutsideTolerance = 1e-9;
 
-/// The vertices that a mesh's faces have; of built-in solids, all.
+/// Returns the vertices that faces of a mesh use, or all vertices of a built-in solid; sets the
+/// name and the counts of `solid`.
 std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
   std::vector<Vec3> points;
-  if (scenes::names_solid(mesh)) {
+  if (scenes::is_built_in_solid(mesh)) {
     solid = scenes::as_mesh_solid(mesh, fracture::make_solid(mesh));
     for (const ConvexPtr& convex : solid.compound.convexes) {
       const auto& vertices = convex->polyhedron.vertices;
@@ -40,7 +41,7 @@ std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
 }
 
 bool encloses(const ConvexPolyhedron& hull, const std::vector<Vec3>& points) {
-  const double allowed = kOutside * bounds(hull).extent().norm();
+  const double allowed = kOutsideTolerance * bounds(hull).extent().norm();
   for (const ConvexPolyhedron::Face& face : hull.faces) {
     for (const Vec3& point : points) {
       if (face.plane.distance(point) > allowed) return false;
@@ -72,7 +73,7 @@ int hull(const HullOptions& options) {
       "hull     of %zu vertices chosen: %zu faces, %.4f of the true hull's volume, %s all "
       "vertices; %.2f ms\n",
       used, fitted.faces.size(), ratio, all ? "encloses" : "does NOT enclose", total_ms);
-  options.say(solid.name + ": " + std::to_string(points.size()) + " vertices\n" + text);
+  options.print(solid.name + ": " + std::to_string(points.size()) + " vertices\n" + text);
   options.write_json(format_figures({{"/input/vertices", std::int64_t(solid.vertices)},
                                      {"/input/faces", std::int64_t(solid.faces)},
                                      {"/vertices_used", std::int64_t(used)},

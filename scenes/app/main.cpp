@@ -1,5 +1,4 @@
-// The program `sunder`. Read first: commands.h, then one file a command; run.cpp is what a run is
-// made of.
+// The program `sunder`. Read first: commands.h, then the file of a command.
 #include <malloc.h>
 
 #include <cstdio>
@@ -17,8 +16,8 @@ int main(int argc, char** argv) {
     return 1;
   }
 #endif
-  // What is freed in one frame is asked for again in the next: it stays with the program, as
-  // handing it back and getting it cleared costs a large solid a third of its stresses' time.
+  // Keep freed memory for the next frame: for a large solid, returning it and getting zeroed pages
+  // takes a third of the time of its stress computation.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   try {

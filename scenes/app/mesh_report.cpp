@@ -8,7 +8,7 @@
 #include "engine/base/check.h"
 #include "engine/io/mesh/glb_writer.h"
 #include "engine/io/mesh/obj_writer.h"
-#include "render/image/relief.h"
+#include "render/image/normal_map.h"
 #include "scenes/app/picture.h"
 
 namespace sunder::app {
@@ -77,18 +77,19 @@ void check_output(const std::string& output) {
 }
 
 std::size_t write_solids(const std::string& output, const std::vector<Compound>& solids,
-                         const std::vector<Material>& materials, std::vector<Paint> paints,
+                         const std::vector<Material>& materials, std::vector<Appearance> paints,
                          std::optional<double> explode, Walls walls) {
   if (output.ends_with(".png")) {
-    constexpr double kApart = 0.3;  // that cracks are seen
-    draw_solids(output, solids, materials, std::move(paints), explode.value_or(kApart));
+    constexpr double kDefaultExplode = 0.3;  // makes cracks visible
+    draw_solids(output, solids, materials, std::move(paints), explode.value_or(kDefaultExplode));
     return 0;
   }
-  std::map<Picture, Picture> normals;  // what other programs take for relief
-  for (Paint& paint : paints) {
+  std::map<EncodedImage, EncodedImage>
+      normals;  // normal maps, as other programs read no height maps
+  for (Appearance& paint : paints) {
     if (!paint.relief) continue;
-    Picture& known = normals[paint.relief];
-    if (!known) known = render::as_normals(paint.relief);
+    EncodedImage& known = normals[paint.relief];
+    if (!known) known = render::as_normal_map(paint.relief);
     paint.relief = known;
   }
   const Model model = make_model(solids, materials, explode.value_or(0), paints, walls);
@@ -97,7 +98,7 @@ std::size_t write_solids(const std::string& output, const std::vector<Compound>&
   } else {
     write_glb(output, model);
   }
-  return model.walled_parts;
+  return model.parts_with_walls;
 }
 
 std::vector<Material> stone() {

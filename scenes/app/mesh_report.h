@@ -1,4 +1,4 @@
-// What the commands on meshes have in common: what they say of their input, and where solids go.
+// Shared by the commands on meshes: reports on the input, and output of solids.
 #pragma once
 
 #include <cstddef>
@@ -13,30 +13,30 @@
 
 namespace sunder::app {
 
-/// The object `input`, and the list of warnings.
+/// Returns the object `input` and the list `warnings` of the JSON output.
 Figures input_figures(const scenes::MeshSolid& solid);
 /// Prints the warnings.
 void print_warnings(const scenes::MeshSolid& solid);
-/// Two lines for people.
+/// Returns two lines of text on the input and its repairs.
 std::string input_summary(const scenes::MeshSolid& solid);
 
-/// A line on what overlaps count twice; empty where they count nothing.
+/// Returns a line on the volume that overlaps count twice; empty if there is none.
 std::string doubled_summary(const std::optional<fracture::DoubledVolume>& doubled);
-/// The figures of it; none where it could not be measured.
+/// Adds the volume that overlaps count twice to the figures; nothing if it was not measured.
 void add_doubled(const std::optional<fracture::DoubledVolume>& doubled, Figures& figures);
 
-/// Throws InputError unless -o names something that can be written; nothing is fine.
+/// Throws InputError unless `output` is empty or the name of a format that write_solids() writes.
 void check_output(const std::string& output);
-/// Writes solids as X.glb, X.png, or as a folder of .obj files, moved apart by `explode` times
-/// their distance from the middle of all; if that is not said, in a picture only. Faces are marked
-/// by `paints`. Returns the number of pieces whose walls are to be removed and could not. Throws
-/// InputError.
+/// Writes solids as X.glb, X.png, or a folder of .obj files. Moves them apart by `explode` times
+/// their distance from the common middle; by default 0.3 for a picture and 0 otherwise. Marks of
+/// faces are indices into `paints` plus one. Returns the number of pieces whose inner walls should
+/// be removed but are kept, as their surface would be open. Throws InputError.
 std::size_t write_solids(const std::string& output, const std::vector<Compound>& solids,
-                         const std::vector<Material>& materials, std::vector<Paint> paints,
+                         const std::vector<Material>& materials, std::vector<Appearance> paints,
                          std::optional<double> explode, Walls walls);
-/// Limestone, for solids that nobody gave a material.
+/// Returns one material with the colours of limestone, for solids without a given material.
 std::vector<Material> stone();
-/// Colours that are easily told apart.
+/// Returns materials with colours that are easy to distinguish.
 std::vector<Material> palette();
 
 }  // namespace sunder::app

@@ -10,7 +10,7 @@
 namespace sunder::app {
 namespace {
 
-/// Looks at a box from the front, a little from above and from the right, so that all of it shows.
+/// Returns a view of a whole box from the front, a little from above and from the right.
 View view_of(const Box& box) {
   View view;
   const double radius = 0.5 * box.extent().norm();
@@ -26,7 +26,7 @@ View view_of(const Box& box) {
 }  // namespace
 
 void draw_solids(const std::filesystem::path& file, std::span<const Compound> solids,
-                 const std::vector<Material>& materials, std::vector<Paint> paints,
+                 const std::vector<Material>& materials, std::vector<Appearance> paints,
                  double explode) {
   Box all, shown;
   for (const Compound& solid : solids) all.extend(bounds(solid));
@@ -52,7 +52,8 @@ void draw_solids(const std::filesystem::path& file, std::span<const Compound> so
   frame.view = view_of(shown);
   frame.meshes = std::move(meshes);
   frame.materials = std::make_shared<std::vector<Material>>(materials);
-  if (!paints.empty()) frame.paints = std::make_shared<const std::vector<Paint>>(std::move(paints));
+  if (!paints.empty())
+    frame.paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
   const auto sink = render::make_picture_sink(file, render::RenderOptions());
   sink->take(std::make_shared<Frame>(std::move(frame)));
   sink->finish();

@@ -1,4 +1,4 @@
-// A picture of solids as they lie in their rest frame.
+// Draws a picture of solids in their rest frame.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,11 @@
 
 namespace sunder::app {
 
-/// Draws solids, whose faces are marked by `paints`, moved apart by `explode` times their distance
-/// from the middle, from the front and a little above, as a PNG. Throws InputError if nothing can
-/// be drawn here, FileError if it cannot be written.
+/// Draws solids as a PNG, seen from the front and a little above, and moved apart by `explode`
+/// times their distance from the common middle. Marks of faces are indices into `paints` plus one.
+/// Throws InputError if there is no OpenGL to draw with, FileError if the file cannot be written.
 void draw_solids(const std::filesystem::path& file, std::span<const Compound> solids,
-                 const std::vector<Material>& materials, std::vector<Paint> paints, double explode);
+                 const std::vector<Material>& materials, std::vector<Appearance> paints,
+                 double explode);
 
 }  // namespace sunder::app

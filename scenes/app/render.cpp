@@ -1,4 +1,6 @@
-// sunder render: a scene, a take or one stored frame becomes a video or images.
+// sunder render: draws a scene, a recording or one stored frame as a video or images.
+//
+// Read first: render_scene(), which connects the sources and sinks above it.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -10,10 +12,10 @@
 #include "engine/io/figures.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/frames_ahead.h"
+#include "engine/io/recording/recording.h"
 #include "engine/io/statistics.h"
-#include "engine/io/take/take.h"
 #include "render/camera.h"
-#include "render/pace.h"
+#include "render/playback.h"
 #include "render/sheet.h"
 #include "render/sinks.h"
 #include "render/view_mode.h"
@@ -29,13 +31,13 @@ struct Span {
   int last = std::numeric_limits<int>::max();
 };
 
-/// "A:B", "A:", ":B" or "A".
+/// Parses --frames "A:B", "A:", ":B" or "A".
 Span parse_frames(const std::string& text) {
   if (text.empty()) return {};
   Span span;
   const char* const end = text.data() + text.size();
   const char* at = text.data();
-  const auto number = [&](int& value) {  // none keeps it
+  const auto number = [&](int& value) {  // leaves the value if there is no number
     if (at == end || *at == ':') return true;
     const auto [stop, error] = std::from_chars(at, end, value);
     at = stop;
@@ -51,7 +53,7 @@ Span parse_frames(const std::string& text) {
   return span;
 }
 
-/// A source of the one frame that a file holds.
+/// A source of the one frame in a file.
 class StoredFrame final : public FrameSource {
  public:
   explicit StoredFrame(const std::string& file) : frame_(read_frame(file)) {}
@@ -62,15 +64,16 @@ class StoredFrame final : public FrameSource {
   FramePtr frame_;
 };
 
-/// What another source gives, from where it is to be seen.
-class LookedAt final : public FrameSource {
+/// A source of another source's frames with the view of a camera.
+class CameraSource final : public FrameSource {
  public:
-  /// `changed`: by the user's --set, of what has been simulated.
-  LookedAt(FrameSource& source, const RenderOptions& options, render::Camera& camera, bool changed)
+  /// `is_recorded`: frames are stored ones, to whose views --set must be applied here.
+  CameraSource(FrameSource& source, const RenderOptions& options, render::Camera& camera,
+               bool is_recorded)
       : source_(source),
         options_(options),
         camera_(camera),
-        changed_(changed && !options.load.set.empty()) {}
+        changed_(is_recorded && !options.load.set.empty()) {}
   FramePtr next() override {
     const FramePtr frame = source_.next();
     if (!frame || (!changed_ && options_.view == "fixed")) return frame;
@@ -87,10 +90,10 @@ class LookedAt final : public FrameSource {
   bool changed_;
 };
 
-/// Shows what goes by to a sink.
-class Watched final : public FrameSource {
+/// A source of another source's frames that also gives each to a sink.
+class TeeSource final : public FrameSource {
  public:
-  Watched(FrameSource& source, FrameSink& sink) : source_(source), sink_(sink) {}
+  TeeSource(FrameSource& source, FrameSink& sink) : source_(source), sink_(sink) {}
   FramePtr next() override {
     FramePtr frame = source_.next();
     if (frame) sink_.take(frame);
@@ -102,8 +105,8 @@ class Watched final : public FrameSource {
   FrameSink& sink_;
 };
 
-/// Hashes the states that go by, and counts how often they reached limits.
-class Record final : public FrameSink {
+/// Hashes the states of frames, and counts how often they reached limits.
+class StateRecorder final : public FrameSink {
  public:
   void take(const FramePtr& frame) override {
     states_.take(frame);
@@ -117,10 +120,10 @@ class Record final : public FrameSink {
   std::uint32_t limits_hit_ = 0;
 };
 
-/// Counts what gets as far as this.
-class Counter final : public FrameSink {
+/// Counts the frames that it passes on to another sink, which is finished only if there are any.
+class CountingSink final : public FrameSink {
  public:
-  explicit Counter(FrameSink& sink) : sink_(sink) {}
+  explicit CountingSink(FrameSink& sink) : sink_(sink) {}
   void take(const FramePtr& frame) override {
     sink_.take(frame);
     ++taken_;
@@ -140,16 +143,16 @@ std::unique_ptr<render::Camera> camera_of(const std::string& spec) {
   return render::make_camera(spec);
 }
 
-/// What is drawn, and where it comes from.
-struct Shown {
+/// The frames to draw and their source.
+struct RenderInput {
   std::unique_ptr<FrameSource> source;
   Span drawn;
-  int skipped = 0;             ///< Frames that the source does not give.
-  TakeReader* take = nullptr;  ///< What the source plays, if it does.
-  bool is_recorded = false;
+  int skipped = 0;                  ///< Number of frames before the first one of the source.
+  RecordingReader* take = nullptr;  ///< The source if it is a recording.
+  bool is_recorded = false;         ///< True for a recording or a stored frame.
 };
 
-/// What has been simulated cannot be simulated otherwise.
+/// Throws InputError if options would change the simulation of a recording or stored frame.
 void check_recorded(const RenderOptions& options) {
   if (options.preset_given) {
     throw InputError("--preset " + options.load.preset + ": " + options.scene +
@@ -158,8 +161,8 @@ void check_recorded(const RenderOptions& options) {
   }
 }
 
-/// One frame, whatever its number.
-Shown open_frame(const RenderOptions& options) {
+/// Opens a stored frame. Throws InputError for options that need several frames.
+RenderInput open_frame(const RenderOptions& options) {
   for (const auto& [is_given, flag] : {std::pair{!options.frames.empty(), "--frames"},
                                        {options.sheet > 1, "--sheet"},
                                        {options.speed != 1, "--speed"},
@@ -171,34 +174,34 @@ Shown open_frame(const RenderOptions& options) {
   return {std::move(frame), {number, number}, number, nullptr, true};
 }
 
-/// `from_start`: of a take as well.
-Shown open(const RenderOptions& options, const Span& span, bool from_start) {
-  Shown shown;
-  shown.is_recorded = options.scene.ends_with(".frame") || options.scene.ends_with(".take");
-  if (shown.is_recorded) check_recorded(options);
+/// Opens the scene, recording or stored frame. `from_start`: a recording is read from frame 0 on.
+RenderInput open(const RenderOptions& options, const Span& span, bool from_start) {
+  RenderInput input;
+  input.is_recorded = options.scene.ends_with(".frame") || options.scene.ends_with(".take");
+  if (input.is_recorded) check_recorded(options);
   if (options.scene.ends_with(".frame")) return open_frame(options);
   int last = 0;
-  if (shown.is_recorded) {
-    auto take = std::make_unique<TakeReader>(options.scene);
-    shown.take = take.get();
-    last = static_cast<int>(shown.take->frames()) - 1;
-    shown.source = std::move(take);
+  if (input.is_recorded) {
+    auto take = std::make_unique<RecordingReader>(options.scene);
+    input.take = take.get();
+    last = static_cast<int>(input.take->frames()) - 1;
+    input.source = std::move(take);
   } else {
     Scene scene = scenes::load_scene(options.scene, options.load);
     last = last_frame(scene, -1);
     const render::ViewMode mode(options.render.view_mode);
-    shown.source = make_simulation(std::move(scene), mode.looks_inside());
+    input.source = make_simulation(std::move(scene), mode.needs_inspection());
   }
-  shown.drawn = {span.first, std::min(span.last, last)};
-  if (shown.drawn.first > shown.drawn.last) {
+  input.drawn = {span.first, std::min(span.last, last)};
+  if (input.drawn.first > input.drawn.last) {
     throw InputError("--frames " + options.frames + ": " + options.scene + " ends with frame " +
                      std::to_string(last));
   }
-  if (shown.take && !from_start) {
-    shown.skipped = span.first;
-    shown.take->seek(static_cast<std::uint32_t>(span.first));
+  if (input.take && !from_start) {
+    input.skipped = span.first;
+    input.take->seek(static_cast<std::uint32_t>(span.first));
   }
-  return shown;
+  return input;
 }
 
 std::unique_ptr<FrameSink> make_sink(const RenderOptions& options, render::Renderer& renderer,
@@ -224,28 +227,28 @@ int render_scene(const RenderOptions& options) {
              render_options);
 
   const auto camera = camera_of(options.view);
-  const Shown shown = open(options, span, camera->remembers());
-  const render::Pace pace{render_options.frames_per_s, options.speed};
-  const std::uint64_t first = pace.first_picture(static_cast<std::uint64_t>(shown.drawn.first));
-  const std::uint64_t last = pace.last_picture(static_cast<std::uint64_t>(shown.drawn.last));
+  const RenderInput input = open(options, span, camera->depends_on_history());
+  const render::PlaybackRate pace{render_options.frames_per_s, options.speed};
+  const std::uint64_t first = pace.first_picture(static_cast<std::uint64_t>(input.drawn.first));
+  const std::uint64_t last = pace.last_picture(static_cast<std::uint64_t>(input.drawn.last));
   if (first > last) {
     throw InputError("--frames " + options.frames +
                      ": no picture falls on them at this --speed "
                      "and --fps; take more of them");
   }
   render::Renderer renderer(render_options);
-  options.say(renderer.description() + "\n");
+  options.print(renderer.description() + "\n");
   const auto pictures = make_sink(options, renderer, first, last);
-  Counter counter(*pictures);
+  CountingSink counter(*pictures);
   FramesFrom from(counter, first);
-  Record record;
-  FramesUntil frames(*shown.source, shown.drawn.last - shown.skipped);
-  // With one thread to have, pictures and frames take turns.
+  StateRecorder record;
+  FramesUntil frames(*input.source, input.drawn.last - input.skipped);
+  // Drawing and simulation alternate if there is only one thread.
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
-  Watched watched(ahead ? static_cast<FrameSource&>(*ahead) : frames, record);
-  render::PacedSource paced(watched, pace, camera->remembers() ? 0 : first);
-  LookedAt seen(paced, options, *camera, shown.is_recorded);
+  TeeSource tee(ahead ? static_cast<FrameSource&>(*ahead) : frames, record);
+  render::ResampledSource paced(tee, pace, camera->depends_on_history() ? 0 : first);
+  CameraSource seen(paced, options, *camera, input.is_recorded);
   Progress progress("render " + options.scene, static_cast<int>(last), options.quiet);
   FrameSink* const sinks[] = {&from, &progress};
   const int stopped = pump_until_stopped(seen, sinks);
@@ -253,21 +256,21 @@ int render_scene(const RenderOptions& options) {
   if (const std::string warning = record.warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (counter.taken() == 0) {
-    options.say("stopped before anything was drawn; nothing is written\n");
+    options.print("stopped before anything was drawn; nothing is written\n");
   } else {
-    options.say((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output +
-                "\n");
+    options.print((stopped == 0 ? "wrote " : "stopped; kept what was drawn: ") + options.output +
+                  "\n");
   }
   options.write_json(format_figures({{"/output", options.output},
                                      {"/gl", renderer.description()},
                                      {"/width", std::int64_t{render_options.width}},
                                      {"/height", std::int64_t{render_options.height}},
-                                     {"/first_frame", std::int64_t{shown.drawn.first}},
-                                     {"/last_frame", std::int64_t{shown.drawn.last}},
+                                     {"/first_frame", std::int64_t{input.drawn.first}},
+                                     {"/last_frame", std::int64_t{input.drawn.last}},
                                      {"/pictures", counter.taken()},
                                      {"/state_hash", record.hash()}}));
-  if (shown.take && !shown.take->damage().empty()) {
-    throw InputError(options.scene + ": " + shown.take->damage() + "; what was before is drawn");
+  if (input.take && !input.take->damage().empty()) {
+    throw InputError(options.scene + ": " + input.take->damage() + "; what was before is drawn");
   }
   return stopped;
 }

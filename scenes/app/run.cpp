@@ -16,10 +16,10 @@ volatile std::sig_atomic_t caught = 0;
 
 constexpr int kStopSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-/// A source that ends when a signal asks it to.
-class UntilStopped final : public FrameSource {
+/// A source of another source's frames that ends when a stop signal is caught.
+class StoppableSource final : public FrameSource {
  public:
-  explicit UntilStopped(FrameSource& source) : source_(source) { catch_stop_signals(); }
+  explicit StoppableSource(FrameSource& source) : source_(source) { catch_stop_signals(); }
   FramePtr next() override { return caught == 0 ? source_.next() : nullptr; }
 
  private:
@@ -33,7 +33,7 @@ void catch_stop_signals() {
   action.sa_handler = [](int signal) { caught = signal; };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : kStopSignals) {
-    struct sigaction before = {};  // whoever asked to go on without a terminal does
+    struct sigaction before = {};  // keeps SIGHUP ignored, as nohup sets it
     ::sigaction(signal, nullptr, &before);
     if (signal != SIGHUP || before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
   }
@@ -51,8 +51,8 @@ void release_stop_signals() {
 }
 
 int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
-  UntilStopped until(source);
-  pump(until, sinks);
+  StoppableSource stoppable(source);
+  pump(stoppable, sinks);
   return caught == 0 ? 0 : 128 + caught;
 }
 
@@ -66,10 +66,10 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, bool inspect) {
   return scenes::make_simulation(std::move(scene), options);
 }
 
-int last_frame(const Scene& scene, int wanted, const std::string& asked) {
+int last_frame(const Scene& scene, int wanted, const std::string& option) {
   const int last = static_cast<int>(std::lround(scene.duration_s * 60));
   if (wanted > last) {
-    throw InputError(asked + ": " + scene.name + " ends with frame " + std::to_string(last));
+    throw InputError(option + ": " + scene.name + " ends with frame " + std::to_string(last));
   }
   return wanted < 0 ? last : wanted;
 }

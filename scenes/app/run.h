@@ -1,4 +1,4 @@
-// A scene on its way through the program: built, limited to some frames, watched.
+// Shared by the commands that simulate: the simulation, limits of frames, stop signals, progress.
 #pragma once
 
 #include <chrono>
@@ -13,14 +13,14 @@
 
 namespace sunder::app {
 
-/// A scene's simulation as the program has it: warnings go to stderr, breaks that went wrong to
-/// sunder-cases/. `inspect`: for a view mode that looks inside.
+/// Makes the simulation of a scene. Warnings go to stderr, case files of failed breaks to
+/// sunder-cases/. `inspect`: frames have an Inspection, as some view modes need.
 std::unique_ptr<FrameSource> make_simulation(Scene scene, bool inspect = false);
-/// Index of the last frame: `wanted`, or, if that is negative, where the scene ends. Throws
-/// InputError if it ends before `wanted`; `asked` is how that was said.
-int last_frame(const Scene& scene, int wanted, const std::string& asked = "");
+/// Returns the index of the last frame: `wanted`, or the last of the scene if that is negative.
+/// Throws InputError that begins with `option` if the scene ends before.
+int last_frame(const Scene& scene, int wanted, const std::string& option = "");
 
-/// The frames 0 to `last` of another source.
+/// A source of the frames 0 to `last` of another source.
 class FramesUntil final : public FrameSource {
  public:
   FramesUntil(FrameSource& source, int last) : source_(source), left_(last + 1) {}
@@ -31,7 +31,7 @@ class FramesUntil final : public FrameSource {
   int left_;
 };
 
-/// Hands on the frames from `first` on.
+/// A sink that passes the frames from index `first` on to another sink.
 class FramesFrom final : public FrameSink {
  public:
   FramesFrom(FrameSink& sink, std::uint64_t first) : sink_(sink), first_(first) {}
@@ -45,21 +45,20 @@ class FramesFrom final : public FrameSink {
   std::uint64_t first_;
 };
 
-/// Makes an interrupt (Ctrl-C), a termination or a terminal that goes be kept in stop_signal(); a
-/// second one ends the program at once.
+/// Catches SIGINT, SIGTERM and SIGHUP from now on, for stop_signal(). A second signal of a kind
+/// ends the program at once. SIGHUP stays ignored if it is.
 void catch_stop_signals();
-/// The signal that was caught; 0: none.
+/// Returns the last signal that was caught; 0 if none was.
 int stop_signal();
-/// Makes signals end this process as usual again, and forgets what was caught.
+/// Restores the default action of the signals, and resets stop_signal() to 0.
 void release_stop_signals();
 
-/// As pump(); but an interrupt (Ctrl-C), a termination or a terminal that goes ends it after the
-/// frame under way, and what the sinks have is finished as if the source had ended there. A second
-/// one ends the program at once. The exit code: 0, or 128 and the signal.
+/// Pumps frames as pump() does, but ends after the current frame when a stop signal is caught, and
+/// finishes the sinks as if the source had ended there. Catches the signals. Returns the exit code:
+/// 0, or 128 plus the signal.
 int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks);
 
-/// Says on stderr how far the run is and how long it will take: a bar on a terminal, otherwise a
-/// line now and then.
+/// Shows the progress of a run on stderr: a bar on a terminal, otherwise a line every fifth of it.
 class Progress final : public FrameSink {
  public:
   Progress(std::string title, int last_frame, bool quiet);

@@ -1,10 +1,10 @@
-// sunder simulate: a run without pictures, with its figures and its state hash.
+// sunder simulate: runs a scene without pictures, and reports its figures and state hash.
 #include <cstdio>
 #include <optional>
 
+#include "engine/io/recording/recording.h"
+#include "engine/io/recording/recording_verifier.h"
 #include "engine/io/statistics.h"
-#include "engine/io/take/take.h"
-#include "engine/io/take/take_verifier.h"
 #include "engine/io/trace_file.h"
 #include "scenes/app/run.h"
 
@@ -29,29 +29,29 @@ int simulate(const SimulateOptions& options) {
   const auto simulation = make_simulation(std::move(scene));
   FramesUntil frames(*simulation, last);
   std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
-  std::optional<TakeReader> known;
-  std::optional<TakeVerifier> verifier;
+  std::optional<RecordingReader> known;
+  std::optional<RecordingVerifier> verifier;
   if (!options.verify.empty()) {
     known.emplace(options.verify);
     sinks.push_back(&verifier.emplace(*known));
   }
-  std::optional<TakeWriter> writer;
+  std::optional<RecordingWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
   if (!options.trace.empty()) start_trace();
   const int stopped = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
-    write_text(options.trace, format_trace(take_trace()));
-    options.say("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
+    write_text(options.trace, format_trace(stop_trace()));
+    options.print("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
   }
   if (const std::string warning = statistics.limits_warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  options.say(statistics.table() + "state hash " + hash.hex() + "\n");
+  options.print(statistics.table() + "state hash " + hash.hex() + "\n");
   options.write_json(statistics.json(hash.hex(), true));
-  if (writer) options.say("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
+  if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
   if (stopped != 0 || !verifier) return stopped;
   const std::string same = std::to_string(verifier->same()) + " frames are those of the take\n";
   if (verifier->difference().empty()) {
-    options.say(same);
+    options.print(same);
     return 0;
   }
   std::fprintf(stderr, "failed: differs from %s at %s; before, %s", options.verify.c_str(),

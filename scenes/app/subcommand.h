@@ -1,5 +1,5 @@
-// A command of the program with its options, what they allow, and which of them name files. This
-// and command_line.cpp are all that knows CLI11.
+// A command of the program with its options, their allowed values, and the files they name. Only
+// this file, subcommand.cpp and command_line.cpp use CLI11.
 #pragma once
 
 #include <charconv>
@@ -20,9 +20,9 @@
 namespace sunder::app {
 
 using Command = std::function<int()>;
-inline constexpr int kMostFrames = 1000000;
+inline constexpr int kMaxFrames = 1000000;
 
-/// Checks that what an option is given is a number from low to high: CLI::Range lets NaN pass.
+/// Returns a validator for a number from low to high. Unlike CLI::Range, it rejects NaN.
 template <class Number>
 CLI::Validator from_to(Number low, Number high) {
   const auto name = [](Number number) {
@@ -44,8 +44,8 @@ CLI::Validator from_to(Number low, Number high) {
       name(low) + " - " + name(high));
 }
 
-/// Throws InputError, with what may be meant, if the first word is none of the commands, or of
-/// those of its command, and for an option that the command does not have. `of`: the words before.
+/// Throws InputError, with similar names, for an unknown command or subcommand, and for an option
+/// that the command does not have. `of`: the words of the command line before `words`.
 void check_words(const CLI::App& program, std::span<char*> words,
                  const std::string& of = "sunder ");
 
@@ -76,7 +76,8 @@ struct FileOptions {
   void check() const { check_files(named(writes), named(reads)); }
 };
 
-/// A subcommand with its options; `work` becomes `chosen` if the line names it.
+/// A subcommand with its options. If the command line names it, parsing sets `chosen` to a call of
+/// `work` with the options.
 template <class Options>
 struct Subcommand {
   CLI::App* app;
@@ -98,11 +99,11 @@ struct Subcommand {
   void writes(const char* name, const std::string& path, bool replaces_folder = false) const {
     files->writes.push_back({name, &path, replaces_folder});
   }
-  template <class Paths>  // one, or several
+  template <class Paths>  // std::string or std::vector<std::string>
   void reads(const char* name, const Paths& paths) const {
     files->reads.push_back({name, &paths});
   }
-  /// Ways to change a scene without editing it.
+  /// Adds the options that change a scene without editing its file.
   void add_changes() {
     app->add_option("--preset", options->load.preset,
                     "Speed against accuracy: draft | realtime | accurate | reference")
@@ -117,7 +118,7 @@ struct Subcommand {
   }
   void add_frames() {
     app->add_option("--frames", options->frames, "Stop after this many frames of 1/60 s")
-        ->check(from_to(1, kMostFrames));
+        ->check(from_to(1, kMaxFrames));
   }
 };
 

@@ -1,5 +1,5 @@
-// sunder trade: what accuracy costs, measured. A study is a list of runs; each is carried out in a
-// process of its own and leaves a file, and reports are made of the files that are there.
+// sunder trade: measures the cost of accuracy. A study is a list of runs. Each run is carried out
+// in a process of its own and writes a file; reports are made of the files.
 //
 // Read first: trade().
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/io/figures.h"
-#include "scenes/app/apart.h"
+#include "scenes/app/child_process.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/file/text_file.h"
@@ -50,24 +50,24 @@ int list_runs(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::string line = runs[i].name() + "  " + runs[i].point.preset;
     for (const std::string& assignment : runs[i].set) line += " " + assignment;
-    options.say(line + "\n");
+    options.print(line + "\n");
     figures["/runs/" + std::to_string(i)] = runs[i].name();
   }
   options.write_json(format_figures(figures));
   return 0;
 }
 
-/// A run that is to be done, and how long it takes beside the others.
-struct Due {
+/// A run to carry out, and an estimate of its time relative to the others.
+struct PendingRun {
   StudyRun run;
   double work = 0;
 };
 
-/// Those whose files are not there. Loads every scene at every point first: what is wrong with the
-/// input is known before anything runs.
-std::vector<Due> due_of(const std::vector<StudyRun>& runs, const fs::path& folder) {
-  set_threads(1);  // a process that has begun others cannot be copied
-  std::vector<Due> due;
+/// Returns the runs that have no file yet. Loads every scene at every point first, so that errors
+/// of the input are found before anything runs.
+std::vector<PendingRun> pending_runs(const std::vector<StudyRun>& runs, const fs::path& folder) {
+  set_threads(1);  // run_in_child() forks, which a process with threads must not
+  std::vector<PendingRun> pending;
   std::map<std::pair<std::string, std::string>, double> work_at;
   for (const StudyRun& run : runs) {
     const auto [at, is_new] = work_at.try_emplace({run.scene, run.point.name});
@@ -77,12 +77,12 @@ std::vector<Due> due_of(const std::vector<StudyRun>& runs, const fs::path& folde
     if (stored.damaged) {
       std::fprintf(stderr, "%s: %s, done again\n", run.name().c_str(), stored.missing.c_str());
     }
-    due.push_back({run, at->second});
+    pending.push_back({run, at->second});
   }
-  return due;
+  return pending;
 }
 
-/// The exit code of a process that carries a run out and writes its files.
+/// Carries out a run in this process and writes its files. Returns an exit code.
 int carry_out_here(const TradeOptions& options, const StudyRun& run) {
   try {
     options.apply();
@@ -94,39 +94,39 @@ int carry_out_here(const TradeOptions& options, const StudyRun& run) {
   }
 }
 
-/// In a process of its own, so that a crash is a result of this run. Answers whether the run has
-/// its files then.
-bool carry_out_apart(const TradeOptions& options, const StudyRun& run) {
-  const Ended ended = run_apart([&] { return carry_out_here(options, run); });
+/// Carries out a run in a child process; a crash is stored as the result of the run. Returns true
+/// if the run has its files.
+bool carry_out_in_child(const TradeOptions& options, const StudyRun& run) {
+  const ProcessResult ended = run_in_child([&] { return carry_out_here(options, run); });
   if (ended.crashed()) {
     bench::Ran crashed;
-    crashed.result.failed = ended.how();
+    crashed.result.failed = ended.description();
     bench::write_run(options.output, run, crashed);
     return true;
   }
   if (ended.signal != 0) {
-    std::fprintf(stderr, "%s: %s\n", run.name().c_str(), ended.how().c_str());
+    std::fprintf(stderr, "%s: %s\n", run.name().c_str(), ended.description().c_str());
     return false;
   }
   if (ended.exit_code != 0) throw FileError(run.name() + " has no file: nothing more is run");
   return true;
 }
 
-/// Answers whether all of them have their files then.
+/// Carries out the runs that have no file yet. Returns true if all runs have their files.
 bool carry_out(const TradeOptions& options, const std::vector<StudyRun>& runs) {
-  const std::vector<Due> due = due_of(runs, options.output);
+  const std::vector<PendingRun> pending = pending_runs(runs, options.output);
   double all = 0, done = 0;
-  for (const Due& each : due) all += each.work;
-  options.say(std::to_string(due.size()) + " of " + std::to_string(runs.size()) +
-              " runs to be done\n");
-  bool whole = true;
+  for (const PendingRun& each : pending) all += each.work;
+  options.print(std::to_string(pending.size()) + " of " + std::to_string(runs.size()) +
+                " runs to be done\n");
+  bool complete = true;
   WorkProgress progress("trade", options.quiet);
-  for (const Due& each : due) {
+  for (const PendingRun& each : pending) {
     progress(each.run.name().c_str(), done / all);
-    whole = carry_out_apart(options, each.run) && whole;
+    complete = carry_out_in_child(options, each.run) && complete;
     done += each.work;
   }
-  return whole;
+  return complete;
 }
 
 int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
@@ -139,7 +139,7 @@ int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   for (const bench::SceneTrade& scene : found.scenes) {
     write_text((folder / (scene.scene + ".svg")).string(), bench::trade_svg(scene));
   }
-  options.say(bench::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
+  options.print(bench::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
   options.write_json(json);
   if (found.missing.empty()) return 0;
   for (const std::string& name : found.missing) std::fprintf(stderr, "missing: %s\n", name.c_str());
@@ -158,8 +158,8 @@ int trade(const TradeOptions& options) {
   if (options.list) return list_runs(options, share);
   if (options.output.empty()) throw InputError("-o DIR is missing: where the results go");
   if (options.merge) return report(options, all);
-  const bool whole = carry_out(options, share);
-  return shared ? (whole ? 0 : 1) : report(options, all);
+  const bool complete = carry_out(options, share);
+  return shared ? (complete ? 0 : 1) : report(options, all);
 }
 
 }  // namespace sunder::app

@@ -1,4 +1,5 @@
-// sunder vacd: the approximate convex decomposition of a mesh (paper 4.1), and how tight it is.
+// sunder vacd: computes the approximate convex decomposition of a mesh (paper 4.1), and measures
+// how much larger its hulls are than the mesh.
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -43,7 +44,7 @@ std::string summary(const scenes::MeshSolid& solid, const Doubled& doubled) {
   return input_summary(solid) + text + doubled_summary(doubled);
 }
 
-/// Every convex by itself, in a colour of its own.
+/// Returns each convex as a compound of its own; colours repeat after `colors` convexes.
 std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
   std::vector<Compound> convexes;
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
@@ -62,18 +63,18 @@ void decompose_once(const VacdOptions& options) {
   progress.reset();
   print_warnings(solid);
   const Doubled doubled = fracture::doubled_volume(solid.compound);
-  options.say(summary(solid, doubled));
+  options.print(summary(solid, doubled));
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
                  options.explode, Walls::kKeep);
-    options.say("wrote " + options.output + "\n");
+    options.print("wrote " + options.output + "\n");
   }
   options.write_json(format_figures(figures_of(solid, doubled)));
 }
 
-/// Again whenever the node file changes, until the program is stopped; a mistake in the file is
-/// shown and waited out.
+/// Decomposes the mesh again whenever the file of nodes changes, until the program is stopped.
+/// Prints errors of the file and goes on.
 [[noreturn]] void watch_nodes(const VacdOptions& options) {
   std::error_code ignored;
   for (;;) {
@@ -94,7 +95,7 @@ void decompose_once(const VacdOptions& options) {
 
 int vacd(const VacdOptions& options) {
   options.apply();
-  if (scenes::names_solid(options.mesh)) {
+  if (scenes::is_built_in_solid(options.mesh)) {
     throw InputError(options.mesh + ": is made of convexes already; name a file of a mesh");
   }
   check_output(options.output);

@@ -9,13 +9,13 @@
 namespace sunder::app {
 namespace {
 
-constexpr double kLong_s = 0.5;  // work that takes less says nothing
+constexpr double kFirstUpdate_s = 0.5;  // elapsed time before which nothing is shown
 constexpr double kBetweenLines_s = 2, kBetweenBars_s = 0.1;
 
 }  // namespace
 
 WorkProgress::WorkProgress(std::string title, bool quiet)
-    : title_(std::move(title)), quiet_(quiet), terminal_(isatty(2) == 1), next_s_(kLong_s) {}
+    : title_(std::move(title)), quiet_(quiet), terminal_(isatty(2) == 1), next_s_(kFirstUpdate_s) {}
 
 WorkProgress::~WorkProgress() {
   if (drawn_) std::fputs("\r\033[K", stderr);

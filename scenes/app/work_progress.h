@@ -1,4 +1,4 @@
-// How far a command is, said on stderr while it works.
+// Shows the progress of a command on stderr.
 #pragma once
 
 #include <chrono>
@@ -6,8 +6,7 @@
 
 namespace sunder::app {
 
-/// A bar with the time left on a terminal; elsewhere a line now and then, once it has taken a
-/// while. Quick work says nothing.
+/// Shows, after 0.5 s, a bar with the remaining time on a terminal, otherwise a line every 2 s.
 class WorkProgress {
  public:
   WorkProgress(std::string title, bool quiet);
@@ -15,7 +14,7 @@ class WorkProgress {
   WorkProgress(const WorkProgress&) = delete;
   WorkProgress& operator=(const WorkProgress&) = delete;
 
-  /// What is done now, and the share of all work that is done.
+  /// Reports the current step, and the fraction of all work that is done.
   void operator()(const char* step, double share);
 
  private:
@@ -25,7 +24,7 @@ class WorkProgress {
   bool quiet_;
   bool terminal_;
   bool drawn_ = false;
-  double next_s_;  ///< When there is something to say again.
+  double next_s_;  ///< Elapsed time of the next update.
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view kRepairs[] = {"auto", "off"};
 constexpr std::string_view kLooks[] = {"file", "material"};
-/// What reaches this part of the height is the bottom.
-constexpr double kBottom = 0.01;
+/// Convexes that reach below this fraction of the body's height are anchored at its bottom.
+constexpr double kBottomFraction = 0.01;
 
 Keys<MeshTable> make_mesh_keys() {
   return {"[[body]]",
@@ -70,10 +70,10 @@ MeshOptions options_of(const MeshTable& given, const std::filesystem::path& fold
 void anchor(Compound& compound, Anchored how) {
   if (how == Anchored::kNone) return;
   const Box box = bounds(compound);
-  const double bottom = box.min.y() + kBottom * box.extent().y();
+  const double bottom = box.min.y() + kBottomFraction * box.extent().y();
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
     if (how == Anchored::kAll) {
-      compound.anchored[c] = kAnchoredAllRound;
+      compound.anchored[c] = kAnchoredAllSides;
     } else if (compound.convexes[c]->box.min.y() <= bottom) {
       compound.anchored[c] = anchor_side(1, false);
     }
@@ -87,7 +87,7 @@ Compound mirrored_whole(const Compound& compound) {
 }
 
 std::string default_name(const std::string& mesh) {
-  return names_built_in(mesh) ? mesh : std::filesystem::path(mesh).stem().string();
+  return is_built_in(mesh) ? mesh : std::filesystem::path(mesh).stem().string();
 }
 
 }  // namespace
@@ -117,8 +117,8 @@ void read_named_materials(const Value& table, std::span<const Material> material
 }
 
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
-                       std::vector<Paint>& paints, std::vector<std::string>& warnings) {
-  const bool built_in = names_built_in(given.mesh);
+                       std::vector<Appearance>& paints, std::vector<std::string>& warnings) {
+  const bool built_in = is_built_in(given.mesh);
   const std::string mesh = built_in ? given.mesh : (folder / given.mesh).string();
   MeshOptions options = options_of(given, folder);
   if (given.look == LookChoice::kFile) options.paints = &paints;
@@ -132,7 +132,7 @@ Vec3 foot_of(const Compound& compound) {
 }
 
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder, std::vector<Paint>& paints,
+               const std::filesystem::path& folder, std::vector<Appearance>& paints,
                std::vector<std::string>& warnings) {
   const std::string_view name = body_keys().table;
   check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});
@@ -146,7 +146,7 @@ Body read_body(const Value& table, std::span<const Material> materials,
   try {
     Compound compound = read_compound(mesh, folder, paints, warnings);
     anchor(compound, given.anchored);
-    std::array<std::vector<Compound>, 2> islands;  // as they are, and mirrored
+    std::array<std::vector<Compound>, 2> islands;  // of the body, and of its mirror image
     std::array<Vec3, 2> foot_R;
     for (const Copy& copy : copies) {
       std::vector<Compound>& parts = islands[copy.mirrored];

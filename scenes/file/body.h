@@ -1,4 +1,4 @@
-// Bodies made from meshes: what [[body]] in a scene may say, and what it becomes.
+// Bodies made from meshes: the keys of [[body]] in a scene file, and the solids made of them.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace sunder::scenes {
 enum class RepairChoice { kAuto, kOff };
 enum class LookChoice { kFile, kMaterial };
 
-/// The keys that name a mesh and say how it is decomposed.
+/// The keys that name a mesh and set its decomposition.
 struct MeshTable {
   std::string mesh;
   double scale = 1;
@@ -31,10 +31,10 @@ struct MeshTable {
   std::vector<std::pair<std::string, MaterialIndex>> materials;  ///< read_named_materials()
 };
 const Keys<MeshTable>& mesh_keys();
-/// Reads the key of the table that gives parts of a mesh materials by name. Throws InputError.
+/// Reads the key `materials`, which assigns materials to named parts of a mesh. Throws InputError.
 void read_named_materials(const Value& table, std::span<const Material> materials, MeshTable& mesh);
 
-/// The other keys of [[body]], but for its place (placement.h).
+/// The other keys of [[body]], except for its placement (placement.h).
 struct BodyTable {
   std::string name;
   Vec3 velocity = Vec3::Zero();
@@ -43,23 +43,24 @@ struct BodyTable {
 };
 const Keys<BodyTable>& body_keys();
 
-/// A mesh in its own coordinates, of its material. Files are sought from `folder` on,
-/// decompositions kept in the cache (mesh_cache.h), and the scene's paints and warnings are
-/// appended to. Throws InputError without a place.
+/// Returns the compound of a mesh in the mesh's own coordinates, with its materials. Files are
+/// relative to `folder`, decompositions are cached (mesh_cache.h), and the appearances in the file
+/// and warnings are appended to `paints` and `warnings` of the scene. Throws InputError without
+/// file and line.
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
-                       std::vector<Paint>& paints, std::vector<std::string>& warnings);
-/// The middle of a compound's lowest level.
+                       std::vector<Appearance>& paints, std::vector<std::string>& warnings);
+/// Returns the middle of the lower face of a compound's bounding box.
 Vec3 foot_of(const Compound& compound);
 
-/// What a [[body]] is.
+/// The solids of a [[body]].
 struct Body {
-  std::string name;           ///< Empty: none was given.
-  std::string usual;          ///< In place of it: its mesh's name.
-  std::vector<Solid> solids;  ///< One for each part of a copy that hangs together, without names.
+  std::string name;           ///< The name given; empty if there is none.
+  std::string default_name;   ///< Name of the mesh, for where none is given.
+  std::vector<Solid> solids;  ///< One for each island of each copy, without names.
 };
-/// Throws InputError.
+/// Reads a [[body]]. Throws InputError.
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder, std::vector<Paint>& paints,
+               const std::filesystem::path& folder, std::vector<Appearance>& paints,
                std::vector<std::string>& warnings);
 
 }  // namespace sunder::scenes

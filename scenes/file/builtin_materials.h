@@ -1,4 +1,4 @@
-// The library of materials, scenes/materials.toml, compiled in as a string (sunder_embed).
+// The library of materials, scenes/materials.toml, compiled in as a string (CMake: sunder_embed).
 #pragma once
 
 namespace sunder::scenes::builtin {

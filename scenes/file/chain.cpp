@@ -5,12 +5,13 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr double kBar = 0.2;     // thickness of a link, of its inner length
-constexpr double kWidth = 0.72;  // across, likewise
+// Fractions of the inner length of a link.
+constexpr double kBarThickness = 0.2;
+constexpr double kLinkWidth = 0.72;  // outer width
 
-/// A link along x whose inner length is `pitch_m`: a rectangle of four bars.
+/// Returns a link along x with the inner length `pitch_m`: a rectangle of four bars.
 Compound make_link(double pitch_m, MaterialIndex material) {
-  const double bar = kBar * pitch_m, width = kWidth * pitch_m;
+  const double bar = kBarThickness * pitch_m, width = kLinkWidth * pitch_m;
   const Vec3 inner(0.5 * pitch_m, 0.5 * width - bar, 0.5 * bar), side(inner.x(), bar, bar);
   std::vector<fracture::Part> parts;
   for (const double s : {-1.0, 1.0}) {
@@ -26,17 +27,18 @@ Compound make_link(double pitch_m, MaterialIndex material) {
 }  // namespace
 
 std::vector<Solid> make_chain(const Shot& shot, std::uint32_t count) {
-  const Vec3 from = *shot.hangs_from_W, way = shot.ball.center_W - from;
-  const Vec3 along = way.normalized();
-  const double pitch_m = (way.norm() - shot.ball.radius_m) / std::max(1u, count);
-  const Quat lie = Quat::FromTwoVectors(Vec3::UnitX(), along);
+  const Vec3 from = *shot.hangs_from_W, to_center = shot.ball.center_W - from;
+  const Vec3 along = to_center.normalized();
+  const double pitch_m = (to_center.norm() - shot.ball.radius_m) / std::max(1u, count);
+  const Quat aligned = Quat::FromTwoVectors(Vec3::UnitX(), along);
   const Quat quarter(std::sqrt(0.5), std::sqrt(0.5), 0, 0);
   std::vector<Solid> links(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     Solid& link = links[i];
     link.name = shot.ball.name + ".link." + std::to_string(i);
     link.compound = make_link(pitch_m, shot.ball.material);
-    link.X_WR = {from + (i + 0.5) * pitch_m * along, i % 2 == 0 ? lie : Quat(lie * quarter)};
+    link.X_WR = {from + (i + 0.5) * pitch_m * along,
+                 i % 2 == 0 ? aligned : Quat(aligned * quarter)};
     link.velocity_W = (i + 0.5) / count * shot.ball.velocity_W;
   }
   return links;

@@ -8,8 +8,8 @@
 
 namespace sunder::scenes {
 
-/// `count` links of the ball's material, each turned by a quarter against the next, from where the
-/// shot hangs to the surface of its ball.
+/// Returns `count` links of the ball's material, from the suspension point of the shot to the
+/// surface of its ball, each turned by 90° relative to the one before.
 std::vector<Solid> make_chain(const Shot& shot, std::uint32_t count);
 
 }  // namespace sunder::scenes

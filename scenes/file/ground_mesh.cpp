@@ -18,7 +18,7 @@ namespace sunder::scenes {
 namespace {
 
 constexpr std::size_t kMostTriangles = 1000000;
-constexpr double kFarthest_m = 1e6;
+constexpr double kMaxCoordinate_m = 1e6;
 constexpr const char* kGroundName = "[ground]";
 
 Keys<GroundMeshTable> make_keys() {
@@ -53,7 +53,7 @@ void check_count(double triangles, const Value& table) {
                    "; make it coarser, or smaller");
 }
 
-/// Two triangles between four heights, split along the diagonal that lies lower, as a valley does.
+/// Returns a mesh of a height grid, each cell of which is split along the lower diagonal.
 GroundMesh mesh_of(const HeightGrid& grid, double spacing_m) {
   GroundMesh mesh;
   const auto place = [&](std::size_t i, std::size_t count) {
@@ -94,7 +94,7 @@ HeightGrid hills_of(const GroundMeshTable& given, const Value& table) {
   return grid;
 }
 
-/// Triangles of a file's polygons, with vertices joined that are in one place.
+/// Returns the triangles of the polygons in a file, with vertices at one position merged.
 GroundMesh mesh_of(const std::string& file, double scale, const Value& table) {
   RawMesh raw = make_raw_mesh(file);
   join_identical(raw);
@@ -116,8 +116,8 @@ GroundMesh mesh_of(const std::string& file, double scale, const Value& table) {
   return mesh;
 }
 
-/// Triangles without area are none: they touch nothing.
-void drop_slivers(GroundMesh& mesh) {
+/// Removes degenerate triangles, whose doubled area is at most 1e-6 of their longest side squared.
+void drop_degenerate_triangles(GroundMesh& mesh) {
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     const Vec3 &a = mesh.vertices_W[t[0]], &b = mesh.vertices_W[t[1]], &c = mesh.vertices_W[t[2]];
     const double longest =
@@ -126,8 +126,8 @@ void drop_slivers(GroundMesh& mesh) {
   });
 }
 
-/// Throws InputError unless neighbours face the same side.
-void check_sides(const GroundMesh& mesh, const Value& table) {
+/// Throws InputError if two triangles at an edge, and no others, have opposite orientations.
+void check_orientation(const GroundMesh& mesh, const Value& table) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::uint32_t, 2>> edges;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -135,8 +135,8 @@ void check_sides(const GroundMesh& mesh, const Value& table) {
       ++edges[std::minmax(from, to)][from < to ? 0 : 1];
     }
   }
-  for (const auto& [edge, ways] : edges) {
-    if (ways[0] + ways[1] != 2 || ways[0] == ways[1]) continue;
+  for (const auto& [edge, uses] : edges) {
+    if (uses[0] + uses[1] != 2 || uses[0] == uses[1]) continue;
     const Vec3 at = 0.5 * (mesh.vertices_W[edge.first] + mesh.vertices_W[edge.second]);
     throw InputError(table.where + ": two triangles of [[ground.mesh]] that meet at [" +
                      format(at.x()) + ", " + format(at.y()) + ", " + format(at.z()) +
@@ -155,16 +155,17 @@ GroundMesh make_mesh(const GroundMeshTable& given, const Value& table,
   }
   if (given.heights_m) return mesh_of(*given.heights_m, given.spacing_m);
   if (given.hills_m) return mesh_of(hills_of(given, table), given.spacing_m);
-  const bool built_in = names_built_in(*given.mesh);
+  const bool built_in = is_built_in(*given.mesh);
   try {
     return mesh_of(built_in ? *given.mesh : (folder / *given.mesh).string(), given.scale, table);
   } catch (const InputError& error) {
-    const std::string said = error.what();
-    throw InputError(said.starts_with(table.where) ? said : table.where + ": " + said);
+    const std::string message = error.what();
+    throw InputError(message.starts_with(table.where) ? message : table.where + ": " + message);
   }
 }
 
-/// The material of ground that names none: made of [ground] and [view] when it is first asked for.
+/// Returns the material of ground meshes that name none. The first call appends it to the scene,
+/// with friction and restitution from [ground] and colour from [view].
 MaterialIndex ground_material(Scene& scene) {
   const auto named = std::ranges::find(scene.materials, kGroundName, &Material::name);
   if (named != scene.materials.end())
@@ -191,10 +192,10 @@ void read_ground_mesh(const Value& table, const std::filesystem::path& folder, S
   read_keys(table, keys.table, keys.keys, {}, &given);
   const std::vector<Copy> copies = read_copies(table, keys.table);
   GroundMesh model = make_mesh(given, table, folder);
-  drop_slivers(model);
+  drop_degenerate_triangles(model);
   if (model.triangles.empty())
     throw InputError(table.where + ": [[ground.mesh]] has no triangle with an area");
-  check_sides(model, table);
+  check_orientation(model, table);
   check_count(static_cast<double>(model.triangles.size() * copies.size()), table);
   const Value* material = find(table, "material");
   model.material = given.material ? find_material(*given.material, material->where, scene.materials)
@@ -204,9 +205,9 @@ void read_ground_mesh(const Value& table, const std::filesystem::path& folder, S
     for (Vec3& vertex : mesh.vertices_W) {
       if (copy.mirrored) vertex.x() = -vertex.x();
       vertex = copy.X_FM * vertex;
-      if (vertex.cwiseAbs().maxCoeff() <= kFarthest_m) continue;
+      if (vertex.cwiseAbs().maxCoeff() <= kMaxCoordinate_m) continue;
       throw InputError(table.where + ": [[ground.mesh]] reaches farther than " +
-                       format(kFarthest_m) + " m; make its scale smaller");
+                       format(kMaxCoordinate_m) + " m; make its scale smaller");
     }
     if (copy.mirrored)
       for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);

@@ -1,4 +1,4 @@
-// Ground that is no plane: what [[ground.mesh]] in a scene may say, and what it becomes.
+// Ground meshes: the keys of [[ground.mesh]] in a scene file, and the triangles made of them.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace sunder::scenes {
 
-/// The keys of [[ground.mesh]], but for its place (placement.h).
+/// The keys of [[ground.mesh]], except for its placement (placement.h).
 struct GroundMeshTable {
   std::optional<std::string> mesh;
   double scale = 1;
@@ -25,8 +25,8 @@ struct GroundMeshTable {
 };
 const Keys<GroundMeshTable>& ground_mesh_keys();
 
-/// Adds what a [[ground.mesh]] is to the ground of a scene whose materials and [ground] are known;
-/// files are sought from `folder` on. Throws InputError.
+/// Appends the meshes of a [[ground.mesh]], and their material if they name none, to a scene that
+/// has its materials, [ground] and [view]. Files are relative to `folder`. Throws InputError.
 void read_ground_mesh(const Value& table, const std::filesystem::path& folder, Scene& scene);
 
 }  // namespace sunder::scenes

@@ -40,17 +40,16 @@ Keys<JointTable> make_keys() {
   throw InputError((value ? value->where : table.where) + ": " + what);
 }
 
-/// Of all that go by a name, the one nearest to a point.
-std::uint32_t thing_named(const Scene& scene, const std::string& name, const Value& value,
-                          const Vec3& point_W) {
+/// Returns the root of this name that is nearest to a point.
+std::uint32_t nearest_root(const Scene& scene, const std::string& name, const Value& value,
+                           const Vec3& point_W) {
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t nearest = 0;
   for (const std::uint32_t root : roots_named(scene, name, value)) {
     const std::size_t solids = scene.solids.size();
-    const double distance = root < solids
-                                ? distance_outside(Structure(scene.solids[root].compound),
-                                                   scene.solids[root].X_WR.inverse() * point_W)
-                                : (scene.balls[root - solids].center_W - point_W).norm();
+    const double distance = root < solids ? distance_to(Structure(scene.solids[root].compound),
+                                                        scene.solids[root].X_WR.inverse() * point_W)
+                                          : (scene.balls[root - solids].center_W - point_W).norm();
     if (distance >= least) continue;
     least = distance;
     nearest = root;
@@ -63,18 +62,18 @@ bool is_fixed(const Scene& scene, const std::optional<std::uint32_t>& root) {
 }
 
 void check(const Value& table, const JointTable& given) {
-  const bool apart = given.kind == Kind::kDistance || given.kind == Kind::kRope;
+  const bool has_length = given.kind == Kind::kDistance || given.kind == Kind::kRope;
   const std::string kind(kKinds[static_cast<std::size_t>(given.kind)]);
-  if (apart != given.to.has_value()) {
+  if (has_length != given.to.has_value()) {
     fail(table, "to",
-         apart ? "missing key 'to' in [[joint]] of kind " + kind + ": where on b it ends"
-               : "to in [[joint]] is for kinds distance and rope; this one is " + kind);
+         has_length ? "missing key 'to' in [[joint]] of kind " + kind + ": where on b it ends"
+                    : "to in [[joint]] is for kinds distance and rope; this one is " + kind);
   }
-  if (apart && *given.to == given.at)
+  if (has_length && *given.to == given.at)
     fail(table, "to", "at and to in [[joint]] are the same point");
   if (given.axis.isZero()) fail(table, "axis", "axis in [[joint]] is zero; give it a direction");
-  const bool turns = given.kind == Kind::kHinge || given.kind == Kind::kFixed;
-  if (!turns && std::isfinite(given.breaking_Nm)) {
+  const bool bears_torque = given.kind == Kind::kHinge || given.kind == Kind::kFixed;
+  if (!bears_torque && std::isfinite(given.breaking_Nm)) {
     fail(table, "breaking_Nm",
          "breaking_Nm in [[joint]] is for kinds hinge and fixed; a " + kind + " bears no torque");
   }
@@ -95,8 +94,8 @@ Joint read_joint(const Value& table, const Scene& scene) {
   joint.kind = given.kind;
   joint.at_W = given.at;
   joint.to_W = given.to.value_or(given.at);
-  joint.a = thing_named(scene, given.a, *find(table, "a"), given.at);
-  if (given.b) joint.b = thing_named(scene, *given.b, *find(table, "b"), joint.to_W);
+  joint.a = nearest_root(scene, given.a, *find(table, "a"), given.at);
+  if (given.b) joint.b = nearest_root(scene, *given.b, *find(table, "b"), joint.to_W);
   if (joint.a == joint.b) fail(table, "b", "a and b in [[joint]] are the same thing");
   if (is_fixed(scene, joint.a) && is_fixed(scene, joint.b)) {
     fail(table, "a", "neither end of this [[joint]] can move: the world holds both");

@@ -1,4 +1,4 @@
-// What holds things together: what [[joint]] in a scene may say.
+// Joints: the keys of [[joint]] in a scene file.
 #pragma once
 
 #include <limits>
@@ -24,8 +24,7 @@ struct JointTable {
 };
 const Keys<JointTable>& joint_keys();
 
-/// The joint of a table, between solids and balls that the scene has by now. Throws InputError with
-/// the place of what is wrong.
+/// Reads a joint of a scene that has its solids and balls. Throws InputError with file and line.
 Joint read_joint(const Value& table, const Scene& scene);
 
 }  // namespace sunder::scenes

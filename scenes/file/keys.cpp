@@ -1,4 +1,4 @@
-// The reader behind the declarations of keys, and its errors.
+// Reads tables by the declarations of their keys. Read first: read_keys(), then Reading.
 #include "scenes/file/keys.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace sunder::scenes {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kFewestCorners = 3, kMostCorners = 64;  // of an outline
+constexpr std::size_t kMinCorners = 3, kMaxCorners = 64;  // corners of an outline
 
 std::string bounds(const Range& range) {
   const bool low = range.low > -std::numeric_limits<double>::max();
@@ -23,14 +23,14 @@ std::string bounds(const Range& range) {
   return high ? " of at most " + format(range.high) : "";
 }
 
-/// One key of one table being read.
+/// One key of one table while its value is read.
 struct Reading {
   const Value& value;
   const Key& key;
   std::string_view table;
-  double scale;  ///< From what the key allows to what is stored.
+  double scale;  ///< Factor from the number in the file to the stored one.
 
-  /// `part`: the number within the value that is wrong, if it is not all of it.
+  /// Throws InputError for the value, or for the number `part` within it.
   [[noreturn]] void fail(const Value* part = nullptr) const {
     const std::string wrong = part ? ", in which " + describe(*part) + " is wrong" : "";
     throw InputError(value.where + ": " + std::string(key.name) + " in " + std::string(table) +
@@ -47,7 +47,7 @@ struct Reading {
     } else {
       fail(part);
     }
-    // Written so that NaN fails too; infinity passes where the range says so.
+    // The negated condition makes NaN fail too; infinity passes if the range includes it.
     if (!(number >= key.range.low && number <= key.range.high)) fail(part);
     return number * scale;
   }
@@ -59,7 +59,7 @@ struct Reading {
     return *exact;
   }
 
-  /// Of an array; 0 for anything else.
+  /// Returns the length of an array; 0 for any other value.
   static std::size_t length(const Value& row) {
     const Array* array = std::get_if<Array>(&row.data);
     return array ? array->size() : 0;
@@ -93,7 +93,7 @@ struct Reading {
   }
   void read(std::vector<Vec2>& to) const {
     const Array& corners = exactly<Array>();
-    if (corners.size() < kFewestCorners || corners.size() > kMostCorners) fail();
+    if (corners.size() < kMinCorners || corners.size() > kMaxCorners) fail();
     to.clear();
     for (const Value& corner : corners) {
       const Array* xy = std::get_if<Array>(&corner.data);
@@ -133,7 +133,7 @@ void store(const Reading& reading, void* object) {
   use_field(reading.key, object, [&](auto& field) { reading.read(field); });
 }
 
-/// An angle's key as it is when given in degrees, under that name; limits to a hundredth.
+/// Returns the key of an angle in degrees, called `name`, with limits rounded to 0.01°.
 Key in_degrees(const Key& key, std::string_view name) {
   const auto limit = [](double angle_rad) { return std::round(100 * angle_rad / kDegree) / 100; };
   Key degrees = key;
@@ -143,8 +143,8 @@ Key in_degrees(const Key& key, std::string_view name) {
   return degrees;
 }
 
-/// Levenshtein distance.
-std::size_t edits(std::string_view a, std::string_view b) {
+/// Returns the Levenshtein distance of two words.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -193,7 +193,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   std::string_view nearest;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (std::string_view candidate : candidates) {
-    const std::size_t distance = edits(word, candidate);
+    const std::size_t distance = edit_distance(word, candidate);
     if (distance < fewest) {
       fewest = distance;
       nearest = candidate;
@@ -218,8 +218,8 @@ std::string allowed(const Key& key) {
     case Kind::kColor:
       return "[x, y, z], each a number" + bounds(key.range) + unit;
     case Kind::kOutline:
-      return "[[x, y], ...], " + std::to_string(kFewestCorners) + " to " +
-             std::to_string(kMostCorners) + " corners, each a number" + bounds(key.range) + unit;
+      return "[[x, y], ...], " + std::to_string(kMinCorners) + " to " +
+             std::to_string(kMaxCorners) + " corners, each a number" + bounds(key.range) + unit;
     case Kind::kGrid:
       return "[[h, h, ...], ...], two rows or more of equal length, two or more, each a number" +
              bounds(key.range) + unit;
@@ -260,10 +260,10 @@ void check_known(const Value& table, std::string_view name,
   }
 }
 
-/// Throws InputError for a key that the table lacks, at the one that seems to be meant by it.
+/// Throws InputError for a missing key, at the place of an unknown key with a similar name, if any.
 [[noreturn]] void refuse_missing(const Value& table, std::string_view name, const Key& key,
                                  std::span<const Key> keys) {
-  constexpr std::size_t kShort = 2;  // is like any other
+  constexpr std::size_t kShort = 2;  // names up to this length are similar to any other
   const std::string missing =
       ": missing key '" + std::string(key.name) + "' in " + std::string(name);
   for (const Entry& entry : as_table(table, name)) {

@@ -1,7 +1,7 @@
-// What a table of a scene file may say: one declaration a key, from which come the reader, its
-// errors and the reference in README.md.
+// Declarations of the keys of a scene file's tables. The reader, its errors and the reference in
+// README.md all follow from one declaration for each key.
 //
-// Read first: kGroundKeys in schema.cpp for what a declaration looks like, then Keys::read().
+// Read first: scene_keys() in schema.cpp for an example, then read() below.
 #pragma once
 
 #include <cstddef>
@@ -21,36 +21,36 @@
 
 namespace sunder::scenes {
 
-/// A material by name; the reader looks the index up.
+/// A material by name; read_keys() finds the index.
 struct MaterialRef {
   std::string name;
   MaterialIndex index;
 };
 
-/// A number of something, or a file that lists it.
+/// A number of items, or a file that lists the items.
 struct CountOrFile {
-  std::uint32_t count = 0;  ///< 0: what is usual.
+  std::uint32_t count = 0;  ///< 0: the default number.
   std::string file;
 };
 
 /// Numbers in rows of equal length.
 struct HeightGrid {
   std::size_t columns = 0;
-  std::vector<double> values;  ///< Row after row.
+  std::vector<double> values;  ///< Row by row.
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
 };
 
-/// Allowed values, both ends included; of every component of a vector.
+/// Allowed values of a number, or of every component of a vector; both ends are included.
 struct Range {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();
 };
 
-/// One key: its name, where it is stored and what is allowed.
+/// One key: its name, its allowed values and the field it is stored in.
 struct Key {
-  enum class Kind {  // those before kChoice as in detail::FieldTypes
+  enum class Kind {  // up to kGrid in the order of detail::FieldTypes
     kBool,
     kInteger,   ///< int
     kCount,     ///< std::uint32_t
@@ -65,18 +65,18 @@ struct Key {
     kOutline,  ///< std::vector<Vec2>
     kGrid,     ///< HeightGrid
     kChoice,   ///< an enumeration
-    kTable,    ///< read by whoever asks for it: allowed, and documented elsewhere
+    kTable,    ///< allowed here; read and documented elsewhere
   };
 
-  std::string_view name;  ///< Ending in _rad: may also be given in degrees, ending in _deg.
+  std::string_view name;  ///< A name ending in _rad has a twin in degrees that ends in _deg.
   Kind kind = Kind::kTable;
   std::string_view unit;
   Range range;
   std::string_view help;
   bool required = false;
-  bool optional = false;  ///< No default: absent means absent.
+  bool optional = false;  ///< True if the field is a std::optional, without a default.
   std::span<const std::string_view> choices;
-  void* (*field)(void* object) = nullptr;  ///< Makes an optional one present.
+  void* (*field)(void* object) = nullptr;  ///< Returns the field; emplaces an optional one.
   void (*choose)(void* object, std::size_t choice) = nullptr;
   std::size_t (*chosen)(const void* object) = nullptr;
 
@@ -105,7 +105,7 @@ struct Unwrapped<std::optional<T>> {
   using type = T;
 };
 
-/// What keys are stored in, in the order of their kinds.
+/// Types of the fields that keys are stored in, in the order of Key::Kind.
 template <class... T>
 struct TypeList {};
 using FieldTypes =
@@ -117,7 +117,7 @@ constexpr Key::Kind kind_of(TypeList<T...>) {
   int kind = 0;
   static_assert((std::is_same_v<Field, T> || ...) || std::is_enum_v<Field>);
   ((std::is_same_v<Field, T> || (++kind, false)) || ...);
-  return static_cast<Key::Kind>(kind);  // after all of them comes kChoice
+  return static_cast<Key::Kind>(kind);  // kChoice if Field is none of them
 }
 
 template <class Use, class... T>
@@ -128,7 +128,7 @@ void use_field(Key::Kind kind, void* field, const Use& use, TypeList<T...>) {
 
 }  // namespace detail
 
-/// A key stored in a member; its default is what the member of a fresh object holds.
+/// Returns a key that is stored in a member, whose initial value is the default.
 template <auto member>
 Key key(std::string_view name, std::string_view unit, Range range, std::string_view help) {
   using Owner = typename detail::MemberOf<decltype(member)>::owner;
@@ -157,7 +157,7 @@ Key key(std::string_view name, std::string_view help) {
   return key<member>(name, "", Range(), help);
 }
 
-/// A key that names a value of an enumeration; `choices` in the enumeration's order.
+/// Returns a key that names a value of an enumeration; `choices` are in the enumeration's order.
 template <auto member>
 Key choice(std::string_view name, std::span<const std::string_view> choices,
            std::string_view help) {
@@ -174,14 +174,14 @@ Key choice(std::string_view name, std::span<const std::string_view> choices,
   return key;
 }
 
-/// Calls `use` with what a key of `object` is stored in; choices and tables are passed over.
+/// Calls `use` with the field of a key in `object`; does nothing for choices and tables.
 template <class Use>
 void use_field(const Key& key, void* object, const Use& use) {
   if (key.kind >= Key::Kind::kChoice) return;
   detail::use_field(key.kind, key.field(object), use, detail::FieldTypes());
 }
 
-/// A key that holds a table (or an array of them) with keys of its own.
+/// Returns a key whose value is a table, or an array of tables, with keys of its own.
 inline Key table_key(std::string_view name, std::string_view help) {
   Key key;
   key.name = name;
@@ -189,38 +189,39 @@ inline Key table_key(std::string_view name, std::string_view help) {
   return key;
 }
 
-/// The keys of one table, stored in a T.
+/// The keys of one table, which are stored in a T.
 template <class T>
 struct Keys {
-  std::string_view table;  ///< As in "[ground]".
+  std::string_view table;  ///< Name of the table, such as "[ground]".
   std::vector<Key> keys;
 };
 
-/// Throws InputError for a key that none of `allowed` lists, naming the nearest one.
+/// Throws InputError for a key of the table that is in none of `allowed`, naming the most similar.
 void check_known(const Value& table, std::string_view name,
                  std::initializer_list<std::span<const Key>> allowed);
-/// Reads the keys that are there; looks materials up, defaults included.
+/// Reads the keys that the table has into `object`, and finds the indices of its materials, also of
+/// defaults. Throws InputError.
 void read_keys(const Value& table, std::string_view name, std::span<const Key> keys,
                std::span<const Material> materials, void* object);
-/// The entries of `value` as a table; throws InputError if it is something else.
+/// Returns the entries of `value`. Throws InputError if it is not a table.
 const Table& as_table(const Value& value, std::string_view name);
-/// The elements of an array of tables under `key`; none if the key is absent.
+/// Returns the elements of the array of tables under `key`; none if absent. Throws InputError.
 std::vector<const Value*> tables(const Value& parent, std::string_view key);
 
-/// Changes what `object` says to what the table says. Throws InputError naming place, key and what
-/// is allowed.
+/// Reads the keys that the table has into `object`. Throws InputError that names file, line, key
+/// and the allowed values.
 template <class T>
 void read(const Keys<T>& keys, const Value& table, std::span<const Material> materials, T& object) {
   check_known(table, keys.table, {keys.keys});
   read_keys(table, keys.table, keys.keys, materials, &object);
 }
 
-/// "; did you mean 'x'?", or nothing if no candidate is near.
+/// Returns "; did you mean 'x'?", or nothing if no candidate is similar to the word.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
-/// "a, b, c"
+/// Returns the words as "a, b, c".
 std::string join(std::span<const std::string_view> words, std::string_view separator = ", ");
 
-/// The one of that name. Throws InputError if there is none: `complaint`, and which there are.
+/// Returns the element of this name, or throws InputError: `complaint` and a list of all names.
 template <class T>
 const T& find_named(std::span<const T> all, std::string_view name, const std::string& complaint,
                     const std::string& list = "; allowed: ", std::string_view separator = " | ") {
@@ -232,15 +233,15 @@ const T& find_named(std::span<const T> all, std::string_view name, const std::st
   throw InputError(complaint + did_you_mean(name, names) + list + join(names, separator));
 }
 
-/// The material of that name. Throws InputError, beginning with `where`, if there is none.
+/// Returns the material of this name. Throws InputError that begins with `where` if there is none.
 MaterialIndex find_material(std::string_view name, const std::string& where,
                             std::span<const Material> materials);
 
-/// What a key allows, for errors and the reference: "a number from 0 to 1".
+/// Returns the allowed values of a key, for errors and the reference: "a number from 0 to 1".
 std::string allowed(const Key& key);
-/// The name under which an angle may be given in degrees; empty if the key is no angle.
+/// Returns the name under which an angle may be given in degrees; empty if the key is no angle.
 std::string degrees_name(const Key& key);
-/// As short as it can be said: "0.1", "1e+06", "inf".
+/// Returns a number with six significant digits: "0.1", "1e+06", "inf".
 std::string format(double number);
 
 }  // namespace sunder::scenes

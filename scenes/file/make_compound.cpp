@@ -10,7 +10,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// The same convexes, of the materials that theirs are numbers of.
+/// Replaces the materials of all convexes, which are indices into `materials`, by these.
 void set_materials(Compound& compound, const std::vector<MaterialIndex>& materials) {
   const auto change = [&](ConvexPtr& convex) {
     const auto changed = std::make_shared<Convex>(*convex);

@@ -9,7 +9,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// To be counted up whenever reading, repair, decomposition or this layout give something else.
+/// To be increased whenever results of reading, repair or decomposition, or this layout, change.
 constexpr std::uint64_t kVersion = 5;
 
 template <class Vectors>
@@ -31,7 +31,7 @@ void put(ByteWriter& out, const MeshSolid& solid) {
     out.put(repair.name, std::uint64_t{repair.count}, repair.harmless);
   }
   fracture::VacdFigures figures = *solid.vacd;
-  figures.split_ms = figures.total_ms = 0;  // of another day: the same mesh, the same bytes
+  figures.split_ms = figures.total_ms = 0;  // times vary: equal meshes give equal bytes
   out.put(figures);
   put(out, solid.compound);
 }
@@ -77,7 +77,7 @@ std::filesystem::path cache_folder() {
   return {};
 }
 
-std::optional<MeshSolid> recall(std::uint64_t key) {
+std::optional<MeshSolid> load_cached(std::uint64_t key) {
   if (cache_folder().empty() || !std::filesystem::exists(entry(key))) return std::nullopt;
   try {
     const std::string file = entry(key).string();
@@ -92,11 +92,11 @@ std::optional<MeshSolid> recall(std::uint64_t key) {
     ByteReader in(content, file);
     return take(in, file);
   } catch (const InputError&) {
-    return std::nullopt;  // made anew, and written over
+    return std::nullopt;  // the entry is overwritten by the new decomposition
   }
 }
 
-void keep(std::uint64_t key, const MeshSolid& solid) {
+void store_cached(std::uint64_t key, const MeshSolid& solid) {
   if (cache_folder().empty()) return;
   ByteWriter content, file;
   put(content, solid);
@@ -105,7 +105,7 @@ void keep(std::uint64_t key, const MeshSolid& solid) {
   try {
     write_file(entry(key), file.bytes);
   } catch (const FileError&) {
-    // A cache that cannot be written is no reason not to run.
+    // The run goes on without a cache that cannot be written.
   }
 }
 

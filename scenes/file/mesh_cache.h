@@ -1,5 +1,5 @@
-// Decompositions kept on disk between runs, by what they were made of: the same mesh decomposed
-// with the same options is read back, bit for bit.
+// A cache of decompositions on disk: a mesh that was decomposed before with equal options is read
+// back, bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace sunder::scenes {
 
-/// What a mesh is made into by the options, in 64 bits.
+/// Returns a 64-bit hash of a mesh and of the options of its decomposition.
 std::uint64_t cache_key(const RawMesh& mesh, const fracture::VacdOptions& vacd,
                         const std::string& repair);
 
-/// $SUNDER_CACHE, or sunder/ in $XDG_CACHE_HOME, or in ~/.cache; empty if none of them is set, and
-/// then nothing is kept.
+/// Returns the folder of the cache: $SUNDER_CACHE, or sunder/ in $XDG_CACHE_HOME, or sunder/ in
+/// ~/.cache; empty if none of these variables is set, which turns the cache off.
 std::filesystem::path cache_folder();
 
-/// What was kept under a key; nothing if there is none, or it is damaged or of another version.
-std::optional<MeshSolid> recall(std::uint64_t key);
-/// Keeps it; where that cannot be done, nothing happens.
-void keep(std::uint64_t key, const MeshSolid& solid);
+/// Returns the solid stored under a key; nothing if missing, damaged or of another version.
+std::optional<MeshSolid> load_cached(std::uint64_t key);
+/// Stores a solid under a key; does nothing if the file cannot be written.
+void store_cached(std::uint64_t key, const MeshSolid& solid);
 
 }  // namespace sunder::scenes

@@ -22,11 +22,11 @@ namespace sunder::scenes {
 namespace {
 
 constexpr const char* kSolids[] = {"box", "column", "torus", "grid", "voronoi", "hall"};
-constexpr std::size_t kNamesShown = 20;  // of a file, where one is given that it has not
+constexpr std::size_t kNamesShown = 20;  // most names that a message lists
 constexpr const char* kStatue = "statue";
 constexpr std::uint32_t kFewestTriangles = 1000, kMostTriangles = 1000000;
 
-/// A whole number from `low` to `high`; none if the text is anything else.
+/// Returns the whole number from `low` to `high` in a text; none if the text is anything else.
 std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t low,
                                           std::uint32_t high) {
   std::uint32_t number = 0;
@@ -35,7 +35,7 @@ std::optional<std::uint32_t> whole_number(std::string_view text, std::uint32_t l
   return number < low || number > high ? std::nullopt : std::optional(number);
 }
 
-/// What is before the colon, if there is one.
+/// Returns the text before the first colon, or all of it if there is none.
 std::string kind_of(const std::string& mesh) { return mesh.substr(0, mesh.find(':')); }
 
 Fit fit_of(const std::string& text) {
@@ -60,8 +60,9 @@ void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions
   for (Vec3& node : vacd.nodes) node *= scale;
 }
 
-/// By group of a mesh, the number of its material: that of the first of its names which is given
-/// one. Throws InputError for a name that the mesh does not have.
+/// Returns the material of each group of a mesh: i + 1 if the first name of the group that is given
+/// a material is options.materials[i], 0 if no name is. Throws InputError for a name that the mesh
+/// does not have.
 std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& file,
                                         const MeshOptions& options) {
   std::vector<MaterialIndex> marked(mesh.groups.size(), MaterialIndex(0u));
@@ -93,11 +94,11 @@ std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& 
   return marked;
 }
 
-/// Of a mesh: parts inside out that are more than this show that it passes through itself so much
-/// that it has no inside of its own.
-constexpr double kTangled = 1e-3;
+/// A mesh of which more than this fraction of the volume is inside out after decomposition passes
+/// through itself so much that its inside is undefined.
+constexpr double kMaxInsideOutFraction = 1e-3;
 
-/// Repairs and decomposes a mesh; one that is tangled gets a new surface first.
+/// Repairs and decomposes a mesh; if too much is inside out, again with a new, enclosing surface.
 fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const MeshOptions& options,
                                   const fracture::VacdOptions& vacd_of, MeshSolid& solid) {
   RepairOptions repair;
@@ -113,7 +114,8 @@ fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const Me
   };
   RawMesh copy = raw;
   fracture::Vacd vacd = attempt(std::move(raw));
-  if (vacd.figures.inside_out_m3 <= kTangled * vacd.figures.mesh_volume_m3) return vacd;
+  if (vacd.figures.inside_out_m3 <= kMaxInsideOutFraction * vacd.figures.mesh_volume_m3)
+    return vacd;
   if (!repair.repair) {
     throw InputError(file + ": repairs are off, and the mesh passes through itself; mend it, or " +
                      "allow repairs");
@@ -123,31 +125,33 @@ fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const Me
   return attempt(std::move(copy));
 }
 
-bool same(const Picture& a, const Picture& b) {
-  return a && b ? *a == *b : a == b;  // maybe of two readings
+bool same(const EncodedImage& a, const EncodedImage& b) {
+  return a && b ? *a == *b : a == b;  // one file may have been read twice
 }
 
-bool same(const std::optional<Gloss>& a, const std::optional<Gloss>& b) {
+bool same(const std::optional<MetallicRoughness>& a, const std::optional<MetallicRoughness>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->roughness == b->roughness && a->metallic == b->metallic && same(a->picture, b->picture);
 }
 
-/// By group of a file, the number that its paint has among those of the scene, from 1; 0: none.
-std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Paint>>& of_groups,
-                                      std::vector<Paint>& paints) {
+/// Appends the appearances of a file's groups to those of the scene. Returns the index of each
+/// group's appearance plus one; 0 if it has none.
+std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Appearance>>& of_groups,
+                                      std::vector<Appearance>& paints) {
   std::vector<std::uint32_t> numbers;
-  for (const std::optional<Paint>& paint : of_groups) {
+  for (const std::optional<Appearance>& paint : of_groups) {
     numbers.push_back(0);
     if (!paint) continue;
-    const auto known =
-        std::ranges::find_if(paints, [&](const Paint& other) { return same_paint(*paint, other); });
+    const auto known = std::ranges::find_if(
+        paints, [&](const Appearance& other) { return same_appearance(*paint, other); });
     numbers.back() = static_cast<std::uint32_t>(known - paints.begin()) + 1;
     if (known == paints.end()) paints.push_back(*paint);
   }
   return numbers;
 }
 
-/// The same convexes, their faces marked by paints in place of groups.
+/// Replaces the marks of all faces, which are indices of groups plus one, by the entries of
+/// `paints` for these groups.
 void set_paints(Compound& compound, const std::vector<std::uint32_t>& paints) {
   for (ConvexPtr& convex : compound.convexes) {
     if (!convex->visual) continue;
@@ -161,7 +165,7 @@ void set_paints(Compound& compound, const std::vector<std::uint32_t>& paints) {
   }
 }
 
-/// Returns a warning that names the files which are not there; empty if all are.
+/// Returns a warning that names the missing files; empty if there are none.
 std::string missing_warning(const std::string& file, const std::vector<std::string>& missing) {
   if (missing.empty()) return "";
   std::string names;
@@ -175,7 +179,7 @@ std::string missing_warning(const std::string& file, const std::vector<std::stri
          "; put them beside it, or export it as .glb with its pictures";
 }
 
-/// Reads, repairs and decomposes a file, or recalls what that once gave.
+/// Reads, repairs and decomposes a file or a built-in mesh, or loads the result from the cache.
 MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   fracture::VacdOptions vacd_of = vacd_options(options);
   if (options.progress) {
@@ -186,13 +190,13 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   const std::string warning = missing_warning(file, raw.missing_files);
   scale_mesh(raw, options, vacd_of);
   if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
-  std::vector<std::optional<Paint>> paints;
+  std::vector<std::optional<Appearance>> paints;
   for (const RawMesh::Group& group : raw.groups) {
     paints.push_back(group.paint);
     if (options.paints) vacd_of.painted.push_back(group.paint ? 1 : 0);
   }
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
-  std::optional<MeshSolid> known = options.cached ? recall(key) : std::nullopt;
+  std::optional<MeshSolid> known = options.cached ? load_cached(key) : std::nullopt;
   MeshSolid solid = known ? std::move(*known) : MeshSolid();
   if (!known) {
     solid.vertices = raw.vertices.size();
@@ -200,7 +204,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
     fracture::Vacd vacd = decompose_repaired(std::move(raw), file, options, vacd_of, solid);
     solid.compound = std::move(vacd.compound);
     solid.vacd = vacd.figures;
-    if (options.cached) keep(key, solid);
+    if (options.cached) store_cached(key, solid);
   }
   solid.name = std::filesystem::path(file).filename().string();
   if (!warning.empty()) solid.warnings.push_back(warning);
@@ -211,17 +215,17 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
 
 }  // namespace
 
-bool same_paint(const Paint& a, const Paint& b) {
-  return a.color == b.color && same(a.picture, b.picture) && a.from_below == b.from_below &&
-         same(a.relief, b.relief) && a.relief_scale == b.relief_scale && same(a.gloss, b.gloss);
+bool same_appearance(const Appearance& a, const Appearance& b) {
+  return a.color == b.color && same(a.picture, b.picture) && a.v_from_bottom == b.v_from_bottom &&
+         same(a.relief, b.relief) && a.normal_scale == b.normal_scale && same(a.gloss, b.gloss);
 }
 
-bool names_solid(const std::string& mesh) {
+bool is_built_in_solid(const std::string& mesh) {
   return std::ranges::count(kSolids, kind_of(mesh)) > 0 && !std::filesystem::exists(mesh);
 }
 
-bool names_built_in(const std::string& mesh) {
-  return names_solid(mesh) || (kind_of(mesh) == kStatue && !std::filesystem::exists(mesh));
+bool is_built_in(const std::string& mesh) {
+  return is_built_in_solid(mesh) || (kind_of(mesh) == kStatue && !std::filesystem::exists(mesh));
 }
 
 RawMesh make_raw_mesh(const std::string& mesh) {
@@ -269,7 +273,7 @@ MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
   const Stopwatch watch;
   MeshSolid solid;
-  if (names_solid(mesh)) {
+  if (is_built_in_solid(mesh)) {
     vacd_options(options);
     if (options.scale != 1 || options.size_m) {
       throw InputError(mesh + ": is built in; give it its size there, in place of a scale");

@@ -1,5 +1,5 @@
-// What a MESH on the command line, or `mesh = "..."` in a scene, becomes: a file is read, repaired
-// and decomposed, and so is a built-in mesh; a built-in solid is made of convexes.
+// Makes the compound of a MESH on the command line, or of `mesh = "..."` in a scene: reads, repairs
+// and decomposes files and built-in meshes, and makes built-in solids of convexes.
 //
 // Read first: make_mesh_solid().
 #pragma once
@@ -16,34 +16,37 @@
 
 namespace sunder::scenes {
 
-/// A compound, and what it was made of. Its materials are numbers: 0, and from 1 on those of
-/// MeshOptions::materials. Its faces are marked by MeshOptions::paints, if at all.
+/// A compound, and figures of the mesh that it was made from. The materials are indices: 0 is the
+/// default one, i + 1 is that of MeshOptions::materials[i]. A face's mark is an index into
+/// MeshOptions::paints plus one, or 0.
 struct MeshSolid {
   Compound compound;
   std::string name;
-  std::size_t vertices = 0;  ///< As it was given, as are:
-  std::size_t faces = 0;
-  bool closed = true;
+  std::size_t vertices = 0;  ///< Vertices of the mesh before repairs.
+  std::size_t faces = 0;     ///< Polygons of the mesh before repairs.
+  bool closed = true;        ///< True if the mesh was closed before repairs.
   std::vector<Repair> repairs;
-  std::optional<fracture::VacdFigures> vacd;  ///< None for what is made of convexes.
-  std::vector<std::string> warnings;          ///< Pictures that are not there.
-  double prepare_ms = 0;                      ///< All of it: reading, repairs and decomposition.
+  std::optional<fracture::VacdFigures> vacd;  ///< None for a compound that was not decomposed.
+  std::vector<std::string> warnings;          ///< Missing texture and material files.
+  double prepare_ms = 0;                      ///< Time of reading, repairs and decomposition.
 };
 
-/// Throws InputError if `mesh` names nothing, or what is asked of it cannot be.
+/// Makes the compound of a file, a built-in mesh or a built-in solid. Throws InputError if `mesh`
+/// names none of these, or an option cannot be met.
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options);
-/// A compound that is there already.
+/// Wraps an existing compound, with the vertices and faces of its convexes.
 MeshSolid as_mesh_solid(const std::string& name, Compound compound);
-/// Returns true if two paints look alike; pictures are compared by their bytes.
-bool same_paint(const Paint& a, const Paint& b);
+/// Returns true if two appearances are equal; pictures are compared by their bytes.
+bool same_appearance(const Appearance& a, const Appearance& b);
 
-/// Whether `mesh` is meant to name what is built in: "box:1,1,1", "statue:80000".
-bool names_built_in(const std::string& mesh);
-/// Whether it is meant to name a built-in solid, which is made of convexes: all but "statue:80000".
-bool names_solid(const std::string& mesh);
-/// A file's mesh, or a built-in one, as it is given. Throws InputError.
+/// Returns true if `mesh` is no file and begins like a built-in solid ("box:1,1,1") or a built-in
+/// mesh ("statue:80000").
+bool is_built_in(const std::string& mesh);
+/// Returns true if `mesh` is no file and begins like a built-in solid, which is made of convexes.
+bool is_built_in_solid(const std::string& mesh);
+/// Returns the mesh of a file, or a built-in mesh, without repairs. Throws InputError.
 RawMesh make_raw_mesh(const std::string& mesh);
-/// Throws InputError unless the options can be meant; before work that takes long.
+/// Returns the options of a decomposition. Throws InputError for wrong ones, before expensive work.
 fracture::VacdOptions vacd_options(const MeshOptions& options);
 
 }  // namespace sunder::scenes

@@ -17,9 +17,9 @@ void mirror(std::vector<Vec3>& vertices, std::vector<Vec3f>& normals) {
   for (Vec3f& n : normals) n.x() = -n.x();
 }
 
-/// Turns a contour's corners round, so that the mirrored face is still seen from outside.
+/// Reverses the corners of a contour, so that the mirrored face still faces outward.
 template <class Values>
-void turn_round(Values& values, std::uint32_t first, std::uint32_t count) {
+void reverse_corners(Values& values, std::uint32_t first, std::uint32_t count) {
   if (!values.empty()) std::reverse(values.begin() + first, values.begin() + first + count);
 }
 
@@ -28,9 +28,9 @@ std::shared_ptr<const PolygonMesh> mirrored_visual(const PolygonMesh& visual) {
   mirror(mesh->vertices, mesh->corner_normals);
   for (PolygonMesh::Face& face : mesh->faces) mirror(face.plane);
   for (const PolygonMesh::Contour& contour : mesh->contours) {
-    turn_round(mesh->corners, contour.first_corner, contour.corner_count);
-    turn_round(mesh->corner_normals, contour.first_corner, contour.corner_count);
-    turn_round(mesh->corner_uvs, contour.first_corner, contour.corner_count);
+    reverse_corners(mesh->corners, contour.first_corner, contour.corner_count);
+    reverse_corners(mesh->corner_normals, contour.first_corner, contour.corner_count);
+    reverse_corners(mesh->corner_uvs, contour.first_corner, contour.corner_count);
   }
   return mesh;
 }
@@ -64,8 +64,8 @@ Part mirrored(Part part) {
   mirror(convex.vertices, convex.corner_normals);
   for (ConvexPolyhedron::Face& face : convex.faces) {
     mirror(face.plane);
-    turn_round(convex.corners, face.first_corner, face.corner_count);
-    turn_round(convex.corner_normals, face.first_corner, face.corner_count);
+    reverse_corners(convex.corners, face.first_corner, face.corner_count);
+    reverse_corners(convex.corner_normals, face.first_corner, face.corner_count);
   }
   if (part.visual) part.visual = mirrored_visual(*part.visual);
   const std::uint8_t low = anchor_side(0, false), high = anchor_side(0, true);

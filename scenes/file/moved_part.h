@@ -1,4 +1,4 @@
-// Parts of compounds, moved and mirrored.
+// Moves and mirrors the parts of compounds.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace sunder::scenes {
 
-/// The convexes of a compound, to be made one again with others.
+/// Returns the convexes of a compound as parts, from which another compound can be made.
 std::vector<Part> parts_of(const Compound& compound);
-/// A part mirrored at x = 0; what held it from one side does so from the other.
+/// Returns a part mirrored at the plane x = 0, with the anchors of its two sides along x exchanged.
 Part mirrored(Part part);
-/// A part moved rigidly. Anchors are left as they are.
+/// Returns a part moved rigidly by `X_FM`. Its anchored sides do not change.
 Part moved(Part part, const Pose& X_FM);
-/// A part as a copy has it.
+/// Returns a part of a model as it is in a copy of the model: mirrored if the copy is, then moved.
 Part placed(Part part, const Copy& copy);
 
 }  // namespace sunder::scenes

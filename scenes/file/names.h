@@ -1,4 +1,4 @@
-// Things of a scene by their names.
+// Names of a scene's solids, bodies and balls.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,31 @@
 
 namespace sunder::scenes {
 
-/// Who is called what in a scene being read, and where that is written. What is given no name gets
-/// one of its own.
+/// The names used in a scene while it is read, with their places; makes unique default names.
 class Names {
  public:
-  /// A name that was given. Throws InputError, naming both places, if it was given before.
-  void give(const std::string& name, const std::string& where);
-  /// A name for what has none: `usual`, or "usual 2", "usual 3" and so on where that is taken. To
-  /// be asked for when all are given that will be.
-  std::string pick(const std::string& usual, const std::string& where);
-  /// Throws InputError if `value` is a name that more than one thing goes by for want of their own.
+  /// Reserves a name given at `where`. Throws InputError if it is reserved, naming both places.
+  void reserve(const std::string& name, const std::string& where);
+  /// Reserves and returns a name for a table at `where` that gives none: `default_name`, or
+  /// "default_name 2", "default_name 3" and so on if that is taken. To be called once all given
+  /// names are reserved.
+  std::string reserve_default(const std::string& default_name, const std::string& where);
+  /// Throws InputError if `value` is a default name of several tables, and so ambiguous.
   void check_reference(const Value& value) const;
 
  private:
-  std::map<std::string, std::string> where_;   ///< Of each name.
-  std::map<std::string, std::string> shared_;  ///< Usual names that were taken: where next.
+  std::map<std::string, std::string> where_;  ///< Place of each name.
+  /// Default names that were taken, with the place of the first table that got another instead.
+  std::map<std::string, std::string> ambiguous_;
 };
 
-/// Indices of solids, then of balls; the parts "wall.0", "wall.1" … of a structure go by "wall"
-/// together. Throws InputError with the place of `value` if there is none.
+/// Returns the roots of this name, ascending: indices of solids, then of balls. "wall" names all
+/// parts "wall.0", "wall.1" and so on of a structure. Throws InputError with the place of `value`
+/// if there is none.
 std::vector<std::uint32_t> roots_named(const Scene& scene, const std::string& name,
                                        const Value& value);
 
-/// Whether the world holds a solid; balls it never holds.
+/// Returns true if a root is a solid that is anchored to the world; balls never are.
 bool is_anchored(const Scene& scene, std::uint32_t root);
 
 }  // namespace sunder::scenes

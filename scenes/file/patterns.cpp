@@ -11,14 +11,14 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr int kMostAlongGrid = 30;
+constexpr int kMaxGridCells = 30;  // along each side
 
-/// The theoretical strength of a flawless solid over its Young's modulus. Bonds between atoms part
-/// at a stress of sqrt(E·gamma/a), which is E/10 within a factor of two (A. A. Griffith, Phil.
-/// Trans. R. Soc. A 221, 1921; E. Orowan, Rep. Prog. Phys. 12, 1949). No bulk solid comes near it.
+/// Theoretical strength of a flawless solid over Young's modulus. Atomic bonds break at a stress of
+/// sqrt(E·gamma/a), which is E/10 within a factor of two (A. A. Griffith, Phil. Trans. R. Soc. A
+/// 221, 1921; E. Orowan, Rep. Prog. Phys. 12, 1949). No bulk solid reaches this strength.
 constexpr double kTheoreticalStrength = 0.1;
 
-/// A figure of a material, by the key that gives it.
+/// A property of a material, with its key.
 struct Figure {
   std::string_view key;
   double value = 0;
@@ -27,8 +27,8 @@ struct Figure {
   std::string text() const { return std::string(key) + " = " + format(value); }
 };
 
-/// Throws InputError: the figure `wrong` contradicts `limit`, as `why` says. The message names the
-/// place of each figure that the table gives; any other is inherited, or a default.
+/// Throws InputError: the property `wrong` contradicts `limit`, as `why` says. The message has the
+/// place of each property that the table gives; any other is inherited, or a default.
 [[noreturn]] void refuse(const Value& table, const Figure& wrong, const std::string& why,
                          const Figure& limit, const std::string& remedy) {
   const Value* wrong_at = find(table, wrong.key);
@@ -44,11 +44,11 @@ struct Figure {
 void read_pattern(const Value& table, const std::filesystem::path& folder, PatternSpec& pattern) {
   read(schema().pattern, table, {}, pattern);
   using Kind = PatternSpec::Kind;
-  if (pattern.kind == Kind::kGrid && pattern.cells > kMostAlongGrid) {
+  if (pattern.kind == Kind::kGrid && pattern.cells > kMaxGridCells) {
     const Value* cells = find(table, "cells");
     throw InputError((cells ? *cells : table).where + ": cells in [material.pattern] is " +
                      std::to_string(pattern.cells) + " along each side of a grid; allowed: 2 to " +
-                     std::to_string(kMostAlongGrid));
+                     std::to_string(kMaxGridCells));
   }
   if (pattern.kind != Kind::kFile) return;
   const Value* file = find(table, "file");
@@ -68,7 +68,7 @@ void read_stronger(const Value& table, const std::filesystem::path& folder, Mate
   if (!find(table, "stronger")) return;
   material.stronger.clear();
   for (const Value* entry : tables(table, "stronger")) {
-    StrongerImpact impact{0, material.pattern, material.impact_radius_m};
+    ImpactResponse impact{0, material.pattern, material.impact_radius_m};
     read(schema().stronger, *entry, {}, impact);
     if (const Value* pattern = find(*entry, "pattern")) {
       read_pattern(*pattern, folder, impact.pattern);
@@ -92,8 +92,7 @@ void check_strengths(const Value& table, const Material& material) {
     refuse(table, strength, "is above the theoretical strength of a solid, a tenth of", stiffness,
            "lower " + std::string(strength.key) + ", or raise youngs_Pa");
   }
-  // Fibres alone, as in wood along its grain, bear more tension than pressure; a material of a
-  // scene is the same in all directions, and has none.
+  // Only fibrous materials, such as wood, bear more tension; materials of scenes are isotropic.
   if (tensile.breaks() && compressive.breaks() && compressive.value < tensile.value) {
     refuse(table, compressive, "is below", tensile, "raise compressive_Pa, or lower tensile_Pa");
   }

@@ -1,4 +1,4 @@
-// Patterns of a material: how its tables say that it breaks.
+// The fracture patterns and strengths of a material in a scene file.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,16 @@
 
 namespace sunder::scenes {
 
-/// Changes `pattern` to what [material.pattern] says; its file is sought from `folder` on. Throws
-/// InputError naming the place, also for a file that is no pattern.
+/// Reads [material.pattern] into `pattern`, whose fields stay where the table has no key for them.
+/// A pattern's file is relative to `folder`. Throws InputError with file and line, also for a file
+/// that is no pattern.
 void read_pattern(const Value& table, const std::filesystem::path& folder, PatternSpec& pattern);
-/// Replaces what harder impacts do by the array `stronger` of a material's table, if there is one.
-/// What it leaves out is as in `material`.
+/// Replaces the patterns of harder impacts by the array `stronger` of a material's table, if there
+/// is one. Keys that an element does not have are as in `material`. Throws InputError.
 void read_stronger(const Value& table, const std::filesystem::path& folder, Material& material);
-/// Throws InputError if the strengths of a material that `table` gave contradict its stiffness or
-/// each other: a strength above a tenth of youngs_Pa, or a compressive strength below the tensile
-/// one. Strengths of 0 and inf, which never break, contradict nothing.
+/// Throws InputError if the strengths of the material in `table` contradict its stiffness or each
+/// other: a strength is above a tenth of youngs_Pa, or the compressive strength is below the
+/// tensile one. Strengths of 0 and inf, at which nothing breaks, are not checked.
 void check_strengths(const Value& table, const Material& material);
 
 }  // namespace sunder::scenes

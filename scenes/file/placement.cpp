@@ -10,7 +10,7 @@ namespace sunder::scenes {
 namespace {
 
 constexpr std::string_view kMirrors[] = {"none", "x", "y", "z", "xz"};
-constexpr std::size_t kMostCopies = 20000;
+constexpr std::size_t kMaxCopies = 20000;
 
 Keys<PlacementTable> make_placement_keys() {
   constexpr Range kPlace{-1e6, 1e6}, kTurn{-6.2832, 6.2832};
@@ -31,7 +31,7 @@ Keys<PlacementTable> make_placement_keys() {
 Keys<RepeatTable> make_repeat_keys() {
   constexpr Range kPlace{-1e6, 1e6}, kTurn{-6.2832, 6.2832};
   return {"[solid.repeat], [solid.part.repeat], [body.repeat]",
-          {key<&RepeatTable::count>("count", "", Range{1, kMostCopies},
+          {key<&RepeatTable::count>("count", "", Range{1, kMaxCopies},
                                     "How often it is there, the first included.")
                .must(),
            key<&RepeatTable::step_m>("step_m", "m", kPlace, "From each to the next."),
@@ -41,7 +41,7 @@ Keys<RepeatTable> make_repeat_keys() {
            key<&RepeatTable::center_m>("center_m", "m", kPlace, "The middle of the ring.")}};
 }
 
-/// Repeats all copies.
+/// Appends the copies of one `repeat` table.
 void repeat(const Value& table, std::vector<Copy>& copies) {
   RepeatTable given;
   read(repeat_keys(), table, {}, given);
@@ -50,9 +50,9 @@ void repeat(const Value& table, std::vector<Copy>& copies) {
     throw InputError(table.where + ": repeat puts all copies in one place; give it step_m, " +
                      "turn_rad or turn_deg");
   }
-  if (before * given.count > kMostCopies) {
+  if (before * given.count > kMaxCopies) {
     throw InputError(table.where + ": " + std::to_string(before * given.count) +
-                     " copies by repeat; allowed: at most " + std::to_string(kMostCopies));
+                     " copies by repeat; allowed: at most " + std::to_string(kMaxCopies));
   }
   for (std::uint32_t k = 1; k < given.count; ++k) {
     const Quat turn = rotation(Vec3(0, k * given.turn_rad, 0));
@@ -69,8 +69,8 @@ void repeat(const Value& table, std::vector<Copy>& copies) {
   }
 }
 
-/// Mirrors all copies along an axis. A reflection after a rotation is another rotation after the
-/// model's own reflection along x.
+/// Appends copies mirrored along an axis at the coordinate `at_m`. A rotation followed by this
+/// reflection equals the model's own reflection along x followed by another rotation.
 void mirror(int axis, double at_m, std::vector<Copy>& copies) {
   const std::size_t before = copies.size();
   for (std::size_t i = 0; i < before; ++i) {

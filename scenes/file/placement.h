@@ -1,4 +1,4 @@
-// Where a solid, a body or a part of a compound is put, and how often: in rows, rings and mirrors.
+// Placement of solids, bodies and parts of compounds, and their copies in rows, rings and mirrors.
 //
 // Read first: read_copies().
 #pragma once
@@ -14,7 +14,7 @@ namespace sunder::scenes {
 
 enum class Mirror { kNone, kX, kY, kZ, kXZ };
 
-/// The keys that say where.
+/// The keys of a placement.
 struct PlacementTable {
   Vec3 position = Vec3::Zero();
   Vec3 rotation_rad = Vec3::Zero();
@@ -32,26 +32,28 @@ struct RepeatTable {
 };
 const Keys<RepeatTable>& repeat_keys();
 
-/// One of what a table asks for: a model in its own frame M, which first may be mirrored at x = 0,
-/// in the frame F that it is put into.
+/// One copy of a model: the model's frame M, in which it is first mirrored at x = 0 if `mirrored`,
+/// is placed in the frame F of the scene or compound by X_FM.
 struct Copy {
   Pose X_FM;
   bool mirrored = false;
-  /// From directions in F of the first copy to this one's; a reflection if `mirrored`.
+  /// Rotation in F from the first copy to this one; includes a reflection if `mirrored`.
   Mat3 turn = Mat3::Identity();
 
+  /// Returns the velocity of this copy for that of the first.
   Vec3 velocity(const Vec3& of_first) const { return turn * of_first; }
-  /// What turns, turns the other way in a mirror.
+  /// Returns the angular velocity of this copy for that of the first; a reflection reverses it.
   Vec3 angular_velocity(const Vec3& of_first) const {
     return mirrored ? Vec3(-(turn * of_first)) : Vec3(turn * of_first);
   }
 };
 
-/// All copies that a table called `name` asks for: the first is where it says; each `repeat`
-/// repeats all there are before it, and `mirror` mirrors all of them. Throws InputError.
+/// Reads the placement keys of a table, which errors call `name`, and returns its copies: the first
+/// at the given pose, then those of each `repeat`, which repeats all copies before it, then those
+/// of `mirror`, which mirrors all of them. Throws InputError.
 std::vector<Copy> read_copies(const Value& table, std::string_view name);
 
-/// About x, then y, then z.
+/// Returns the rotation about the fixed axes x, then y, then z.
 Quat rotation(const Vec3& angles_rad);
 
 }  // namespace sunder::scenes

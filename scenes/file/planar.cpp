@@ -8,9 +8,10 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr double kFlat = 1e-9;  // m, m/s: as zero as arithmetic leaves it
+/// Components out of the plane, in m, m/s and rad/s, are rounding errors up to this.
+constexpr double kPlaneTolerance = 1e-9;
 
-/// Says no in the scene's name.
+/// Throws InputError for parts of a scene that need a third dimension.
 struct Checker {
   const Scene& scene;
   const std::string& where;
@@ -19,7 +20,7 @@ struct Checker {
     if (!planar) throw InputError(where + ": planar = true in [scene], but " + what);
   }
   void in_plane(const Vec3& vector, const std::string& what) const {
-    require(std::abs(vector.z()) <= kFlat, what + " has a z of its own; make it 0");
+    require(std::abs(vector.z()) <= kPlaneTolerance, what + " has a z of its own; make it 0");
   }
   void check(const Solid& solid) const;
   void check(const Ball& ball, const std::string& name) const;
@@ -28,14 +29,14 @@ struct Checker {
 void Checker::check(const Solid& solid) const {
   const std::string name = "solid '" + solid.name + "' ";
   in_plane(solid.velocity_W, name + "has a velocity that");
-  require(solid.angular_velocity_W.head<2>().norm() <= kFlat,
+  require(solid.angular_velocity_W.head<2>().norm() <= kPlaneTolerance,
           name + "turns about another axis than z");
   for (const ConvexPtr& convex : solid.compound.convexes) {
     const Material& material = scene.materials[convex->material.value];
     require(!convex->visual, name + "is a mesh; build it of boxes and prisms");
     const std::optional<ZPrism> prism = prism_along_z(convex->polyhedron, solid.X_WR);
     require(prism.has_value(), name + "is no prism along z; turn it, or build it of boxes");
-    require(prism->low < -kFlat && prism->high > kFlat,
+    require(prism->low < -kPlaneTolerance && prism->high > kPlaneTolerance,
             name +
                 "has parts that do not reach through the plane z = 0; move it there, or make "
                 "its blocks larger");
@@ -76,13 +77,13 @@ void check_planar(const Scene& scene, const std::string& where) {
   for (const Drive& drive : scene.drives) {
     if (drive.velocity_W) checker.in_plane(*drive.velocity_W, "a drive's velocity");
     checker.require(
-        !drive.angular_velocity_W || drive.angular_velocity_W->head<2>().norm() <= kFlat,
+        !drive.angular_velocity_W || drive.angular_velocity_W->head<2>().norm() <= kPlaneTolerance,
         "a drive's spin is about another axis than z");
   }
   for (const Move& move : scene.moves) {
     for (const PathKey& key : move.path.keys) {
       checker.in_plane(key.shift_W, "a move's shift");
-      checker.require(key.turn_W.head<2>().norm() <= kFlat,
+      checker.require(key.turn_W.head<2>().norm() <= kPlaneTolerance,
                       "a move turns about another axis than z");
     }
   }

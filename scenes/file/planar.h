@@ -1,4 +1,4 @@
-// Scenes without a third dimension: what they may hold.
+// Planar scenes, which move in the plane z = 0 alone: checks, and a unit of length for the solver.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace sunder::scenes {
 
-/// Throws InputError, beginning with `where` and naming what it is about, if something in the scene
-/// needs a third dimension.
+/// Throws InputError that begins with `where` and names the solid, ball, joint or action if any of
+/// the scene needs a third dimension.
 void check_planar(const Scene& scene, const std::string& where);
-/// The size of its usual piece in the plane: the geometric mean over convexes and balls, as a power
-/// of two of a metre, so that changing units costs no digits; 1 if there are none.
+/// Returns the typical size of a piece in the plane, in m: the geometric mean over convexes and
+/// balls, rounded to a power of two, so that a change of units is exact; 1 if there are none.
 double planar_piece_m(const Scene& scene);
 
 }  // namespace sunder::scenes

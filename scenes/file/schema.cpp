@@ -1,4 +1,4 @@
-// What a scene file may say. Defaults are those of the objects the keys are stored in.
+// The tables and keys of a scene file. Defaults are those of the objects that keys are stored in.
 #include "scenes/file/schema.h"
 
 namespace sunder::scenes {
@@ -40,18 +40,19 @@ Keys<Scene> scene_keys() {
                                "balls about it.")}};
 }
 
-Keys<SolverDials> solver_keys() {
-  return {"[solver]",
-          {key<&SolverDials::max_colors>(
-               "max_colors", "", Range{0, 64},
-               "Colours that contacts are solved in; 64: coloured Gauss-Seidel; contacts that find "
-               "no colour are solved by mass splitting; 0: all of them."),
-           key<&SolverDials::sweeps>("sweeps", "", Range{1, 1000},
-                                     "Sweeps of either kind in a substep; from 4 on by conjugate "
-                                     "gradients. 4 at `reference`."),
-           key<&SolverDials::lanes>("lanes", "", Range{0, 16},
-                                    "Contacts side by side: 1, 4, 8 or 16, if the processor has so "
-                                    "many; 0: the most. The same bits for any.")}};
+Keys<SolverOptions> solver_keys() {
+  return {
+      "[solver]",
+      {key<&SolverOptions::max_colors>(
+           "max_colors", "", Range{0, 64},
+           "Colours that contacts are solved in; 64: coloured Gauss-Seidel; contacts that find "
+           "no colour are solved by mass splitting; 0: all of them."),
+       key<&SolverOptions::sweeps>("sweeps", "", Range{1, 1000},
+                                   "Sweeps of either kind in a substep; from 4 on by conjugate "
+                                   "gradients. 4 at `reference`."),
+       key<&SolverOptions::lanes>("lanes", "", Range{0, 16},
+                                  "Contacts side by side: 1, 4, 8 or 16, if the processor has so "
+                                  "many; 0: the most. The same bits for any.")}};
 }
 
 Keys<Material> material_keys() {
@@ -121,33 +122,34 @@ Keys<PatternSpec> pattern_keys() {
            "Cells are joined into so many pieces, which need not be convex; 0: each is one.")}};
 }
 
-Keys<StrongerImpact> stronger_keys() {
+Keys<ImpactResponse> stronger_keys() {
   return {
       "[[material.stronger]]",
-      {key<&StrongerImpact::energy_J>(
+      {key<&ImpactResponse::energy_J>(
            "energy_J", "J", Range{0, kInfinity},
            "From this on, an impact breaks the material as follows; ascending.")
            .must(),
-       key<&StrongerImpact::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
+       key<&ImpactResponse::impact_radius_m>("impact_radius_m", "m", Range{0.001, kInfinity},
                                              "In place of the material's, which is the default."),
        table_key("pattern", "In place of the material's; starts from that.")}};
 }
 
-Keys<Crumbling> crumbling_keys() {
+Keys<DebrisEmission> crumbling_keys() {
   constexpr Range kSize{0.0005, 1};
-  return {"[material.crumbling]",
-          {key<&Crumbling::particles_per_m2>("particles_per_m2", "1/m²", Range{0, 1e5},
-                                             "Debris and dust off new crack surface; 0 for none."),
-           key<&Crumbling::debris_ratio>("debris_ratio", "", kFraction,
-                                         "How many of them are debris; the others are dust."),
-           key<&Crumbling::debris_smallest_m>("debris_smallest_m", "m", kSize,
-                                              "Least radius of debris."),
-           key<&Crumbling::debris_largest_m>("debris_largest_m", "m", kSize,
-                                             "Largest; most is near the least."),
-           key<&Crumbling::dust_kg_m2>("dust_kg_m2", "kg/m²", Range{0, 100},
-                                       "Dust off new crack surface; it weighs on the air."),
-           key<&Crumbling::dust_settling_m_s>("dust_settling_m_s", "m/s", Range{0, 10},
-                                              "How fast dust sinks in still air.")}};
+  return {
+      "[material.crumbling]",
+      {key<&DebrisEmission::particles_per_m2>("particles_per_m2", "1/m²", Range{0, 1e5},
+                                              "Debris and dust off new crack surface; 0 for none."),
+       key<&DebrisEmission::debris_ratio>("debris_ratio", "", kFraction,
+                                          "How many of them are debris; the others are dust."),
+       key<&DebrisEmission::debris_smallest_m>("debris_smallest_m", "m", kSize,
+                                               "Least radius of debris."),
+       key<&DebrisEmission::debris_largest_m>("debris_largest_m", "m", kSize,
+                                              "Largest; most is near the least."),
+       key<&DebrisEmission::dust_kg_m2>("dust_kg_m2", "kg/m²", Range{0, 100},
+                                        "Dust off new crack surface; it weighs on the air."),
+       key<&DebrisEmission::dust_settling_m_s>("dust_settling_m_s", "m/s", Range{0, 10},
+                                               "How fast dust sinks in still air.")}};
 }
 
 Keys<SolidHead> solid_keys() {
@@ -272,7 +274,7 @@ Schema make_schema() {
       "[accuracy]",
       {key<&Accuracy::dt_s>("dt_s", "s", Range{1e-5, 1.0 / 60 + 1e-9},
                             "A step; 1/60 s is a whole number of them."),
-       key<&Accuracy::substeps>("substeps", "", Range{1, kMostSubsteps}, "Substeps of a step."),
+       key<&Accuracy::substeps>("substeps", "", Range{1, kMaxSubsteps}, "Substeps of a step."),
        key<&Accuracy::error_target_m>(
            "error_target_m", "m", Range{0, 1},
            "In place of substeps: so many that what stands sinks in no farther, about; "

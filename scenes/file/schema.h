@@ -11,28 +11,28 @@
 
 namespace sunder::scenes {
 
-/// Speed against accuracy, by name.
+/// A named trade-off between speed and accuracy.
 struct Preset {
   std::string_view name;
   Accuracy accuracy;
-  int sweeps;  ///< Of the solver in a substep.
+  int sweeps;  ///< Sweeps of the solver in a substep.
   std::string_view help;
 };
 std::span<const Preset> presets();
 
-inline constexpr int kMostSubsteps = 64;
+inline constexpr int kMaxSubsteps = 64;
 
-/// The part of [[material]] that does not end up in a Material.
+/// The keys of [[material]] that are not stored in a Material.
 struct MaterialHead {
   std::string name;
   std::string like;
 };
 
 enum class Anchored { kNone, kBottom, kAll };
-/// Their names, in order.
+/// Returns the names of the values of Anchored, in order.
 std::span<const std::string_view> anchored_names();
 
-/// The keys of [[solid]] that all structures share, but for its place (placement.h).
+/// The keys of [[solid]] that all structures share, except for the placement (placement.h).
 struct SolidHead {
   std::string structure;
   std::string name;
@@ -41,7 +41,7 @@ struct SolidHead {
   Anchored anchored = Anchored::kNone;
 };
 
-/// The keys of a part of a compound, but for its place.
+/// The keys of a part of a compound, except for the placement (placement.h).
 struct PartHead {
   std::string structure;
 };
@@ -110,12 +110,12 @@ struct WreckingBallTable {
   MaterialRef material{"steel", {}};
 };
 
-/// The tables themselves; `top` lists the names of all others.
+/// The keys of all tables but those of other headers; `top` has the names of the top-level tables.
 struct Schema {
   Keys<Scene> top;
   Keys<Scene> scene;
   Keys<Accuracy> accuracy;
-  Keys<SolverDials> solver;
+  Keys<SolverOptions> solver;
   Keys<Limits> limits;
   Keys<Ground> ground;
   Keys<View> view;
@@ -123,8 +123,8 @@ struct Schema {
   Keys<MaterialHead> material_head;
   Keys<Material> material;
   Keys<PatternSpec> pattern;
-  Keys<StrongerImpact> stronger;
-  Keys<Crumbling> crumbling;
+  Keys<ImpactResponse> stronger;
+  Keys<DebrisEmission> crumbling;
   Keys<Look> look;
   Keys<SolidHead> solid;
   Keys<PartHead> part;

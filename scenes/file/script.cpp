@@ -82,28 +82,28 @@ void add_drive(const Value& table, Scene& scene) {
                           given.force_N, given.angular_velocity, given.torque_Nm});
 }
 
-/// Of a path; what goes faster would pass through things.
-constexpr double kFastest_m_s = 100, kFastest_rad_s = 50;
+/// Highest speed and spin of a moved body along its path; a faster one could pass through others.
+constexpr double kMaxPathSpeed_m_s = 100, kMaxPathSpin_rad_s = 50;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 PathKey read_path_key(const Value& table, const PathKey& before) {
   MoveKeyTable given;
   read(schema().move_key, table, {}, given);
-  const double takes_s = given.time_s - before.time_s;
-  if (takes_s <= 0) {
+  const double duration_s = given.time_s - before.time_s;
+  if (duration_s <= 0) {
     throw InputError(find(table, "time_s")->where + ": time_s in [[script.move.key]] is " +
                      format(given.time_s) + ", not after " + format(before.time_s) +
                      (before.time_s > 0 ? " of the key before; keys go by time"
                                         : ", when it stands where it stood"));
   }
-  const auto check = [&](double way, double fastest, const std::string& unit) {
-    if (way <= fastest * takes_s) return;
+  const auto check = [&](double distance, double max_rate, const std::string& unit) {
+    if (distance <= max_rate * duration_s) return;
     throw InputError(table.where + ": the way to this [[script.move.key]] takes " +
-                     format(way / takes_s) + " " + unit + "; allowed: at most " + format(fastest) +
-                     "; give it more time");
+                     format(distance / duration_s) + " " + unit + "; allowed: at most " +
+                     format(max_rate) + "; give it more time");
   };
-  check((given.shift - before.shift_W).norm(), kFastest_m_s, "m/s");
-  check((given.turn_rad - before.turn_W).norm(), kFastest_rad_s, "rad/s");
+  check((given.shift - before.shift_W).norm(), kMaxPathSpeed_m_s, "m/s");
+  check((given.turn_rad - before.rotation_W).norm(), kMaxPathSpin_rad_s, "rad/s");
   return {given.time_s, given.shift, given.turn_rad};
 }
 
@@ -115,9 +115,10 @@ Path read_path(const Value& table, const MoveTable& given) {
   if (path.keys.empty()) {
     throw InputError(table.where + ": [[script.move]] needs a [[script.move.key]] or more");
   }
-  constexpr double kSame = 1e-6;
+  constexpr double kReturnTolerance = 1e-6;  // m; half an angle in rad
   const PathKey& last = path.keys.back();
-  const bool returns = last.shift_W.norm() < kSame && rotation_by(last.turn_W).vec().norm() < kSame;
+  const bool returns = last.shift_W.norm() < kReturnTolerance &&
+                       rotation_by(last.rotation_W).vec().norm() < kReturnTolerance;
   if (given.loop && !returns) {
     throw InputError(tables(table, "key").back()->where +
                      ": the last key of a [[script.move]] with loop = true has to be where it "
@@ -181,7 +182,7 @@ void add_shot(const Value& table, Scene& scene) {
 void read_script(const Value& table, Scene& scene) {
   Script script;
   read(schema().script, table, {}, script);
-  // Read even if it is not enabled: a scene is right or wrong whatever is switched off.
+  // A disabled script is read too, so that its errors are found.
   for (const Value* shot : tables(table, "shot")) add_shot(*shot, scene);
   for (const Value* ball : tables(table, "wrecking_ball")) add_wrecking_ball(*ball, scene);
   for (const Value* blast : tables(table, "blast")) add_blast(*blast, scene);
@@ -189,7 +190,8 @@ void read_script(const Value& table, Scene& scene) {
   for (const Value* drive : tables(table, "drive")) add_drive(*drive, scene);
   for (const Value* move : tables(table, "move")) add_move(*move, scene);
   if (!script.enabled) {
-    for (Move& move : scene.moves) move.path = {}, move.release_s = kNever;  // it is held, though
+    // Moved bodies stay kinematic, at rest.
+    for (Move& move : scene.moves) move.path = {}, move.release_s = kNever;
     scene.shots.clear();
     scene.blasts.clear();
     scene.removals.clear();

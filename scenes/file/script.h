@@ -1,4 +1,4 @@
-// What happens in a scene: [script] and its shots, blasts, removals, drives and moves.
+// The script of a scene file: [script] with its shots, blasts, removals, drives and moves.
 #pragma once
 
 #include "engine/model/scene.h"
@@ -6,7 +6,7 @@
 
 namespace sunder::scenes {
 
-/// Adds what the table says to a scene that has its solids, balls and joints. Throws InputError.
+/// Reads [script] into a scene that has its materials, solids, balls and joints. Throws InputError.
 void read_script(const Value& table, Scene& scene);
 
 }  // namespace sunder::scenes

@@ -1,4 +1,4 @@
-// Text from files.
+// Reads text files.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace sunder::scenes {
 
-/// The whole file. Throws InputError if it cannot be read.
+/// Returns the whole text of a file. Throws InputError if it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 
 }  // namespace sunder::scenes

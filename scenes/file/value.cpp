@@ -1,12 +1,12 @@
-// TOML into values, and changes to them from the command line.
+// Converts TOML to values, and changes values by assignments from the command line.
 #include "scenes/file/value.h"
 
 #include <algorithm>
 #include <charconv>
 #include <sstream>
 
-// A header-only library: this is the one file that compiles it. Its parser says what is wrong with
-// a text, but asserts some of it first, where assertions are on.
+// toml++ is header-only, and this is the only file that compiles it. Its parser reports errors of a
+// text, but also asserts some of them, which is turned off here.
 #define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 
@@ -84,13 +84,13 @@ Value parse_flag_value(const std::string& text, const std::string& flag) {
   }
 }
 
-/// Everything inside came from the flag, whatever line the parser thought it was on.
-void stamp(Value& value, const std::string& where) {
+/// Sets the place of a value and of all values in it.
+void set_place(Value& value, const std::string& where) {
   value.where = where;
   if (Array* array = std::get_if<Array>(&value.data)) {
-    for (Value& element : *array) stamp(element, where);
+    for (Value& element : *array) set_place(element, where);
   } else if (Table* table = std::get_if<Table>(&value.data)) {
-    for (Entry& entry : *table) stamp(entry.value, where);
+    for (Entry& entry : *table) set_place(entry.value, where);
   }
 }
 
@@ -136,12 +136,12 @@ std::string describe(const Value& value) {
     }
     std::string operator()(const std::string& s) const { return "the string \"" + s + "\""; }
     std::string operator()(const Array& a) const {
-      constexpr std::size_t kFew = 4;
+      constexpr std::size_t kMaxNumbersShown = 4;
       const auto is_number = [](const Value& item) {
         return std::holds_alternative<std::int64_t>(item.data) ||
                std::holds_alternative<double>(item.data);
       };
-      if (a.empty() || a.size() > kFew || !std::ranges::all_of(a, is_number))
+      if (a.empty() || a.size() > kMaxNumbersShown || !std::ranges::all_of(a, is_number))
         return "an array of " + std::to_string(a.size());
       std::ostringstream out;
       for (std::size_t i = 0; i < a.size(); ++i) {
@@ -188,7 +188,7 @@ void set_value(Value& document, const std::string& assignment) {
     }
   }
   *place = parse_flag_value(assignment.substr(equals + 1), flag);
-  stamp(*place, flag);
+  set_place(*place, flag);
 }
 
 }  // namespace sunder::scenes

@@ -1,5 +1,4 @@
-// A TOML document as plain values that remember where they were written. Only value.cpp knows
-// toml++.
+// A TOML document as plain values, each with its file and line. Only value.cpp uses toml++.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@ namespace sunder::scenes {
 struct Value;
 struct Entry;
 using Array = std::vector<Value>;
-using Table = std::vector<Entry>;  ///< In the order of their keys.
+using Table = std::vector<Entry>;  ///< Sorted by key after parsing.
 
 /// One value and its place: "FILE:LINE", or the flag that set it.
 struct Value {
@@ -26,18 +25,18 @@ struct Entry {
   Value value;
 };
 
-/// The value of a key; null if the table has none.
+/// Returns the value of a key; null if the table does not have the key.
 const Value* find(const Table& table, std::string_view key);
 const Value* find(const Value& table, std::string_view key);
-/// "the string \"x\"", "the number 3", "an array of 2": for error messages.
+/// Returns "the string \"x\"", "the number 3", "an array of 2" and so on, for error messages.
 std::string describe(const Value& value);
 
-/// Reads a document. Throws InputError "FILE:LINE: what is wrong" for bad syntax.
+/// Parses a document. Throws InputError "FILE:LINE: ERROR" for wrong syntax.
 Value parse_toml(const std::string& text, const std::string& file);
 
-/// Changes one value of a document by "key=value": a dotted key, where a number picks an element of
-/// an array (ball.0.radius_m=2); a value in TOML, whose quotes may be left out. Whether the key
-/// means anything is left to whoever reads the document.
+/// Sets one value of a document by "KEY=VALUE": a dotted key, in which a number is an index into an
+/// array (ball.0.radius_m=2), and a TOML value, whose quotes may be left out. Adds the key if it is
+/// missing, and does not check that it is known. Throws InputError.
 void set_value(Value& document, const std::string& assignment);
 
 }  // namespace sunder::scenes

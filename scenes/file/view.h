@@ -1,4 +1,4 @@
-// Camera and light, as a scene file, a camera's file or the user says.
+// Camera and light from a scene file, from a camera path's file, and from --set.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace sunder::scenes {
 
-/// What [view] says, if the document has one, with its keys. Throws InputError for a view that
-/// nothing can be seen in.
+/// Reads [view] and its [[view.key]] into a scene, if the document has them. Throws InputError,
+/// also for a zero direction of the sun or an eye at its target.
 void read_view(const Value& document, Scene& scene);
 
-/// The path of a camera from a file of [[key]] tables. Throws InputError naming file, line, key and
-/// what is allowed.
+/// Reads the path of a camera from a file of [[key]] tables. Throws InputError that names file,
+/// line, key and the allowed values.
 std::vector<ViewKey> load_view_keys(const std::filesystem::path& file);
 
-/// Changes how something that has been simulated is looked at, by `set` as in LoadOptions. Throws
-/// InputError for all but keys of [view]; `what` is what errors call it.
+/// Changes the view of a stored frame or recording by assignments as in LoadOptions::set; errors
+/// call it `what`. Throws InputError for all keys but those of [view].
 void change_view(View& view, const std::vector<std::string>& set, const std::string& what);
 
 }  // namespace sunder::scenes

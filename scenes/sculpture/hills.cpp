@@ -8,10 +8,11 @@ namespace sunder::scenes {
 namespace {
 
 constexpr int kOctaves = 3;
-constexpr double kFiner = 2, kLower = 0.35;  // an octave, than the one before
+/// Frequency and amplitude of an octave, relative to the one before.
+constexpr double kFrequencyRatio = 2, kAmplitudeRatio = 0.35;
 
-/// A slope of its own in every direction at each point of a lattice, and 0 there; from about −0.7
-/// to 0.7 between.
+/// Returns gradient noise: 0 at all points of the integer lattice, with a random gradient at each,
+/// and values from about −0.7 to 0.7 between.
 double noise(double x, double z, std::uint64_t seed) {
   const double column = std::floor(x), row = std::floor(z);
   const auto at = [&](int i, int k) {
@@ -36,13 +37,13 @@ std::vector<double> make_hills(const Hills& hills) {
   heights.reserve(hills.rows * hills.columns);
   for (std::size_t row = 0; row < hills.rows; ++row) {
     for (std::size_t column = 0; column < hills.columns; ++column) {
-      // Tops and valleys are a cell of the lattice apart, about.
+      // Neighbouring tops and valleys are about one cell of the lattice apart.
       double cells = 2 * hills.spacing_m / hills.length_m, high_m = hills.height_m, height_m = 0;
       for (int octave = 0; octave < kOctaves; ++octave) {
         height_m +=
             high_m * noise(cells * static_cast<double>(column), cells * static_cast<double>(row),
                            combine(hills.seed, static_cast<std::uint64_t>(octave)));
-        cells *= kFiner, high_m *= kLower;
+        cells *= kFrequencyRatio, high_m *= kAmplitudeRatio;
       }
       heights.push_back(height_m);
     }

@@ -1,4 +1,4 @@
-// Surfaces by formula, as meshes.
+// Meshes of implicit surfaces.
 #pragma once
 
 #include <functional>
@@ -7,13 +7,13 @@
 
 namespace sunder::scenes {
 
-/// A smooth function of a place: negative inside, 0 on the surface, and nowhere steeper than 2.
+/// A smooth function of position: negative inside, 0 on the surface, with a gradient of at most 2.
 using Field = std::function<double(const Vec3&)>;
 
-/// The surface where a field is 0, which lies within `box`, in triangles of a grid with cells of
-/// `cell_m`, facing outward: a vertex for each sheet of it in a cell, moved onto the surface, with
-/// the field's own normal (dual contouring). Watertight; what is thinner than a cell may be missed.
-/// The same bits for any number of threads.
+/// Returns the zero surface of a field, which must be within `box`, as a watertight mesh of
+/// outward triangles (dual contouring on a grid with cells of `cell_m`). Each sheet of the surface
+/// in a cell has one vertex, which is moved onto the surface, with the field's gradient as normal.
+/// Details thinner than a cell may be missed. Bit-identical for any number of threads.
 RawMesh triangulate(const Field& field, const Box& box, double cell_m);
 
 }  // namespace sunder::scenes

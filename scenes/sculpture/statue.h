@@ -1,5 +1,5 @@
-// A draped figure that holds up a torch: the statue of the paper's figure 10, where it has a
-// dragon.
+// A draped figure that holds up a torch: the mesh for the scene of the paper's figure 10, which
+// shows a dragon.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace sunder::scenes {
 
-/// A closed, smooth mesh of about so many triangles, from 1,000 to 1,000,000: 2.3 m tall with its
-/// base, which stands on y = 0; it faces +z.
+/// Returns a closed, smooth mesh of about `triangles` triangles, from 1,000 to 1,000,000. It is 2.3
+/// m tall with its base, which stands on y = 0, and faces +z.
 RawMesh make_statue(std::uint32_t triangles);
 
 }  // namespace sunder::scenes

@@ -1,4 +1,4 @@
-// What is drawn in a plane and runs through along z: arches, and prisms of any convex outline.
+// The structures that are extruded along z: `arch`, and `prism` with any convex outline.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ struct Arch {
   MaterialRef material{"stone", {}};
 };
 
-/// A ring of voussoirs; its feet are level to the last bit.
+/// Builds a ring of voussoirs; its feet are exactly at y = 0.
 std::vector<Piece> build_arch(const Arch& arch) {
   const auto at = [&](double radius_m, int joint) -> Vec2 {
     if (joint == 0) return {radius_m, 0};
@@ -48,7 +48,7 @@ struct Prism {
 std::vector<Piece> build_prism(const Prism& prism) {
   Piece piece;
   add_slices(piece.parts, prism.outline_m, prism.depth_m, prism.block_m, prism.material.index);
-  // Either end has all corners.
+  // make_hull() keeps all corners at both ends only if the outline is convex.
   if (piece.parts[0].polyhedron.vertices.size() != 2 * prism.outline_m.size()) {
     throw InputError(
         "prism: outline_m is not convex, or has a corner twice or within a side; allowed: the "

@@ -1,9 +1,9 @@
-// An arena: wedges of bays around an oval, and a stand with a temple in its middle.
+// The structure `arena`: wedges of bays around an oval, and a temple in the middle.
 //
-// Read first: build_arena(), then arena_wedge.cpp. As Roman builders laid them out, the oval is
-// drawn from four centres: two arcs of 120° at its ends, two of 60° and of a larger radius along
-// its sides. All bays of an arc are alike, so there are but two kinds of wedges, and all of a kind
-// share their convexes. Wedges are solids of their own, that stand by themselves.
+// Read first: build_arena(), then arena_wedge.cpp. As in Roman arenas, the oval consists of arcs
+// about four centres: two of 120° at its ends, and two of 60° and of a larger radius along its
+// sides. All bays of an arc are equal, so there are only two kinds of wedges, and all wedges of a
+// kind share their convexes. Each wedge is a solid of its own that is stable by itself.
 #include "scenes/structures/arena.h"
 
 #include <algorithm>
@@ -37,11 +37,11 @@ void check_arena(const Arena& arena, const WedgePlan& end) {
   }
 }
 
-/// So many wedges of an arc around its centre, on the left or the right of it.
+/// Adds poses of an arc's wedges about `center`; `towards_rad` is the direction of its middle.
 void add_copies(Piece& piece, int wedges, double arc_rad, double towards_rad, const Vec3& center) {
   for (int i = 0; i < wedges; ++i) {
     const double angle = towards_rad + arc_rad * ((i + 0.5) / wedges - 0.5);
-    piece.copies.push_back({center, ray(angle).rotation});
+    piece.copies.push_back({center, radial_frame(angle).rotation});
   }
 }
 
@@ -50,14 +50,14 @@ std::vector<Piece> build_arena(const Arena& arena) {
   const WedgePlan end(arena, kEnd / (arena.ends * arena.bays));
   const WedgePlan side(arena, kSide / (arena.sides * arena.bays));
   check_arena(arena, end);
-  const double half = 0.5 * (side.outer - end.outer);  // between the centres of the ends
+  const double half = 0.5 * (side.outer - end.outer);  // half the distance of the ends' centres
   const double rise = 2 * half * sin_cos(kSide).sin;
   std::vector<Piece> pieces = {{wedge(arena, end), Vec3::Zero(), {}},
                                {wedge(arena, side), Vec3::Zero(), {}}};
-  for (const double hand : {-1.0, 1.0}) {
-    add_copies(pieces[0], arena.ends, kEnd, hand * std::numbers::pi / 2, Vec3(hand * half, 0, 0));
-    add_copies(pieces[1], arena.sides, kSide, hand < 0 ? std::numbers::pi : 0,
-               Vec3(0, 0, -hand * rise));
+  for (const double sign : {-1.0, 1.0}) {
+    add_copies(pieces[0], arena.ends, kEnd, sign * std::numbers::pi / 2, Vec3(sign * half, 0, 0));
+    add_copies(pieces[1], arena.sides, kSide, sign < 0 ? std::numbers::pi : 0,
+               Vec3(0, 0, -sign * rise));
   }
   if (arena.stand && end.seats > 9) {
     pieces.push_back(

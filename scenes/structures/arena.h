@@ -1,4 +1,4 @@
-// What an arena is made of: wedges of bays, and a stand. Internal to the arena.
+// The parts of an arena: wedges of bays, and a temple in the middle. Internal to the arena.
 #pragma once
 
 #include "scenes/structures/arena_members.h"
@@ -20,34 +20,35 @@ struct Arena {
   MaterialRef wall{"stone", {}};
 };
 
-constexpr double kPodium = 2.2;  // m, height
+constexpr double kPodium = 2.2;  // m, height of the wall below the lowest tier
 constexpr double kRise = 0.55;   // m, height of a tier
 
-/// A wedge in numbers: radii are about the middle of its arc.
+/// The dimensions of a wedge, in m; radii are about the centre of its arc.
 struct WedgePlan {
   WedgePlan(const Arena& arena, double bay_rad);
 
   double bay_rad;
   Bay bay;
-  double outer;    ///< The fronts of the piers.
-  double front;    ///< Of the wall between them, at the middle of a bay; as those below.
-  double back;     ///< Of that wall.
-  double passage;  ///< The outer face of the inner wall.
-  double seats;    ///< The edge of the lowest tier, along an arc.
+  double outer;    ///< Radius of the fronts of the piers.
+  double front;    ///< Radius of the front of the wall between piers, at the middle of a bay.
+  double back;     ///< Radius of the back of this wall, at the middle of a bay.
+  double passage;  ///< Radius of the outer face of the inner wall, at the middle of a bay.
+  double seats;    ///< Radius of the edge of the lowest tier, which is an arc.
   double opening;  ///< Half the width of an arch.
   ArchedWall arch;
-  double springing;  ///< Of an arch, over its floor.
+  double springing;  ///< Height of an arch's springing over its floor.
 };
-/// `arena.bays` bays, the middle at z; the world holds what stands on the ground.
+/// Returns `arena.bays` bays, centred on the z-axis; parts at the ground are anchored.
 Parts wedge(const Arena& arena, const WedgePlan& plan);
 
-/// A temple on a round stand, its middle at the origin.
+/// A round temple on a stepped base.
 struct Stand {
   double radius_m = 6;
   double height_m = 2.2;
   double column_m = 4.4;
   int columns = 12;
 };
-Parts stand(const Stand& stand, const Chisel& chisel, MaterialIndex wall);
+/// Returns the parts of a temple, its axis at x = z = 0.
+Parts stand(const Stand& stand, const StoneOptions& options, MaterialIndex wall);
 
 }  // namespace sunder::scenes

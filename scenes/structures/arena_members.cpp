@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kDrumSides = 16, kBalusterSides = 8;
 
-/// What is turned, in a prism of so many sides.
+/// Returns a solid of revolution whose convex is a prism with `sides` sides.
 Part turned_part(std::span<const Vec2> outline, std::span<const Vec2> profile, int sides,
                  MaterialIndex material) {
   const std::vector<Ring> rings = turned(outline, profile);
@@ -28,7 +28,7 @@ std::vector<Vec2> shifted(std::vector<Vec2> profile, double up) {
   return profile;
 }
 
-/// A torus, a hollow and a second torus.
+/// Returns the profile of a column's base: a torus, a scotia and a second torus.
 std::vector<Vec2> base_profile(double r, double from, int n) {
   Profile base(1.28 * r, 0);
   base.curve({1.48 * r, 0}, 1.48 * r, 0.15 * r, n).curve({1.48 * r, 0.3 * r}, 1.3 * r, 0.3 * r, n);
@@ -39,7 +39,7 @@ std::vector<Vec2> base_profile(double r, double from, int n) {
   return shifted(base.points(), from);
 }
 
-/// A neck with a ring about it, and an echinus.
+/// Returns the profile of a column's capital: a neck with a ring about it, and an echinus.
 std::vector<Vec2> capital_profile(double r, double from, int n) {
   Profile capital(0.84 * r, 0);
   capital.to(0.9 * r, 0.02 * r).curve({0.98 * r, 0.02 * r}, 0.98 * r, 0.09 * r, n);
@@ -49,27 +49,28 @@ std::vector<Vec2> capital_profile(double r, double from, int n) {
   return shifted(capital.points(), from);
 }
 
-/// Drums that narrow upwards; their flutes run out below the capital and above the base.
-void add_shaft(const Column& of, double from, double to, const Chisel& chisel, Parts& parts) {
+/// Adds the drums of a tapering shaft; its flutes end below the capital and above the base.
+void add_shaft(const Column& column, double from, double to, const StoneOptions& options,
+               Parts& parts) {
   constexpr int kFlutes = 20;
-  const int segments = std::max(1, chisel.detail / 8);
+  const int segments = std::max(1, options.detail / 8);
   const auto outline = [&](double depth) { return fluted(kFlutes, segments, depth); };
   const auto radius = [&](double y) {
     const double t = (y - from) / (to - from);
-    return of.radius_m * (1 - 0.16 * t * t);
+    return column.radius_m * (1 - 0.16 * t * t);
   };
-  const double length = (to - from) / of.drums;
-  for (int i = 0; i < of.drums; ++i) {
-    std::vector<Vec2> levels = {{1, from + i * length}};  // depth of the flutes, height
+  const double length = (to - from) / column.drums;
+  for (int i = 0; i < column.drums; ++i) {
+    std::vector<Vec2> levels = {{1, from + i * length}};  // relative depth of the flutes, height
     if (i == 0) {
-      levels = {{0, from}, {0, from + 0.15 * of.radius_m}};
+      levels = {{0, from}, {0, from + 0.15 * column.radius_m}};
       for (const double t : {0.15, 0.5, 1.0})
-        levels.emplace_back(t, from + (0.15 + 0.3 * t * t) * of.radius_m);
+        levels.emplace_back(t, from + (0.15 + 0.3 * t * t) * column.radius_m);
     }
-    if (i + 1 == of.drums) {
+    if (i + 1 == column.drums) {
       for (const double t : {1.0, 0.5, 0.15})
-        levels.emplace_back(t, to - (0.15 + 0.3 * t * t) * of.radius_m);
-      levels.emplace_back(0, to - 0.15 * of.radius_m);
+        levels.emplace_back(t, to - (0.15 + 0.3 * t * t) * column.radius_m);
+      levels.emplace_back(0, to - 0.15 * column.radius_m);
       levels.emplace_back(0, to);
     } else {
       levels.emplace_back(1, from + (i + 1) * length);
@@ -79,7 +80,7 @@ void add_shaft(const Column& of, double from, double to, const Chisel& chisel, P
       const Vec2 size(radius(level.y()), level.y());
       rings.push_back(turned(outline(0.09 * level.x()), std::span(&size, 1))[0]);
     }
-    parts.push_back(lofted(rings, prism_around(rings, kDrumSides), chisel.stone));
+    parts.push_back(lofted(rings, prism_around(rings, kDrumSides), options.stone));
   }
 }
 
@@ -88,7 +89,7 @@ Vec2 on_circle(double radius, double angle_rad) {
   return {radius * turn.cos, radius * turn.sin};
 }
 
-/// A polygon of (x, y) drawn out along z.
+/// Returns the rings of a polygon of (x, y) that is extruded along z.
 std::vector<Ring> drawn_out(std::span<const Vec2> outline, double back, double front) {
   std::vector<Ring> rings(2);
   for (const Vec2& p : outline) {
@@ -104,7 +105,7 @@ ConvexPolyhedron hull_of(const std::vector<Ring>& rings) {
   return make_hull(points);
 }
 
-/// Of one stone of an arch: its joints are at two angles.
+/// One stone of an arch, between joints at two angles.
 struct Voussoir {
   const ArchedWall& arch;
   double from_rad, to_rad;
@@ -112,32 +113,32 @@ struct Voussoir {
   Vec2 at(double radius, double share) const {
     return on_circle(radius, from_rad + share * (to_rad - from_rad));
   }
-  /// Its outline beyond the opening; the first and the last stand on the piers.
+  /// Returns the outer corners of the outline; the end stones extend down to the piers.
   std::vector<Vec2> back() const {
     const double outer = arch.outer_m();
     if (from_rad == 0) return {{outer, 0}, {outer, arch.shoulder_y()}, at(outer, 1)};
     if (to_rad == std::numbers::pi) return {at(outer, 0), {-outer, arch.shoulder_y()}, {-outer, 0}};
     return {at(outer, 0), at(outer, 1)};
   }
-  Part stone(const Chisel& chisel) const {
+  Part stone(const StoneOptions& options) const {
     std::vector<Vec2> outline = back(), corners = outline;
-    const int segments = std::max(1, chisel.detail / 6);
+    const int segments = std::max(1, options.detail / 6);
     for (int i = segments; i >= 0; --i)
       outline.push_back(at(arch.radius_m, i / static_cast<double>(segments)));
     corners.push_back(at(arch.radius_m, 1));
     corners.push_back(at(arch.radius_m, 0));
     return lofted(drawn_out(outline, arch.back, arch.front),
-                  hull_of(drawn_out(corners, arch.back, arch.front)), chisel.stone);
+                  hull_of(drawn_out(corners, arch.back, arch.front)), options.stone);
   }
-  /// The moulding before it, which follows the circle.
-  Part moulding(const Chisel& chisel) const {
+  /// Returns the moulding in front of the stone, along its arc.
+  Part moulding(const StoneOptions& options) const {
     const double r0 = arch.radius_m + 0.02, r1 = arch.outer_m(), w = r1 - r0, z = arch.front;
-    const int n = chisel.arc();
+    const int n = options.arc();
     Profile profile(r0, z);
     profile.to(r0, z + 0.05).to(r0 + 0.35 * w, z + 0.05).to(r0 + 0.35 * w, z + 0.08);
     profile.to(r0 + 0.65 * w, z + 0.08).curve({r0 + 0.68 * w, z + 0.14}, r0 + 0.8 * w, z + 0.14, n);
     profile.curve({r0 + 0.84 * w, z + 0.17}, r1, z + 0.17, n).to(r1, z);
-    const int segments = std::max(1, chisel.detail / 6);
+    const int segments = std::max(1, options.detail / 6);
     std::vector<Ring> rings(static_cast<std::size_t>(segments) + 1);
     for (int i = 0; i <= segments; ++i) {
       for (const Vec2& p : profile.points()) {
@@ -147,16 +148,16 @@ struct Voussoir {
     }
     const double beyond = r1 / sin_cos(0.5 * (to_rad - from_rad)).cos;
     const std::array corners = {at(r0, 0), at(beyond, 0), at(beyond, 1), at(r0, 1)};
-    return lofted(rings, hull_of(drawn_out(corners, z, z + 0.17)), chisel.stone);
+    return lofted(rings, hull_of(drawn_out(corners, z, z + 0.17)), options.stone);
   }
 };
 
-/// A figure's outline at a height: how wide and deep it is, how far before the middle, and how deep
-/// its folds are.
-struct Waist {
+/// A cross-section of a figure, as fractions of its height: an ellipse at the height `y` with the
+/// half-axes `x` and `z` about z = `before`. `folds` is the depth of folds, of the half-axes.
+struct CrossSection {
   double y, x, z, before, folds;
 };
-constexpr Waist kFigure[] = {
+constexpr CrossSection kFigure[] = {
     {0, .19, .17, 0, .09},      {.02, .2, .18, 0, .09},     {.1, .175, .155, .01, .1},
     {.25, .165, .14, .02, .1},  {.4, .17, .145, .015, .08}, {.48, .165, .14, .005, .06},
     {.56, .14, .115, 0, .04},   {.62, .135, .11, 0, .04},   {.7, .16, .125, .005, .03},
@@ -167,17 +168,17 @@ constexpr Waist kFigure[] = {
 
 }  // namespace
 
-void move_to(const Pose& pose, Parts members, Parts& parts) {
+void append_moved(const Pose& pose, Parts members, Parts& parts) {
   for (Part& part : members) parts.push_back(moved(std::move(part), pose));
 }
 
-Pose ray(double angle_rad) {
+Pose radial_frame(double angle_rad) {
   const SinCos half = sin_cos(0.5 * angle_rad);
   return {Vec3::Zero(), Quat(half.cos, 0, half.sin, 0)};
 }
 
-Pose ray(double angle_rad, double x, double y, double z) {
-  return ray(angle_rad) * Pose{{x, y, z}, Quat::Identity()};
+Pose radial_frame(double angle_rad, double x, double y, double z) {
+  return radial_frame(angle_rad) * Pose{{x, y, z}, Quat::Identity()};
 }
 
 Part slab(const Vec3& min, const Vec3& max, MaterialIndex material) {
@@ -198,27 +199,27 @@ Part moulded_block(double half_x, double z0, double z1, const std::vector<Vec2>&
   return lofted(rings, make_box(low, high), material);
 }
 
-Parts column(const Column& of, const Chisel& chisel) {
-  const double r = of.radius_m, half = 1.5 * r;
-  const int n = chisel.arc();
-  const std::vector<Vec2> round = circle(chisel.detail);
+Parts column(const Column& column, const StoneOptions& options) {
+  const double r = column.radius_m, half = 1.5 * r;
+  const int n = options.arc();
+  const std::vector<Vec2> round = circle(options.detail);
   Parts parts;
-  double y = of.pedestal_m;
-  if (y > 0) parts.push_back(slab({-half, 0, -half}, {half, y, half}, chisel.stone));
-  parts.push_back(slab({-half, y, -half}, {half, y + 0.3 * r, half}, chisel.stone));
+  double y = column.pedestal_m;
+  if (y > 0) parts.push_back(slab({-half, 0, -half}, {half, y, half}, options.stone));
+  parts.push_back(slab({-half, y, -half}, {half, y + 0.3 * r, half}, options.stone));
   const std::vector<Vec2> base = base_profile(r, y + 0.3 * r, n);
-  parts.push_back(turned_part(round, base, kDrumSides, chisel.stone));
-  const double abacus = of.height_m - 0.32 * r;
+  parts.push_back(turned_part(round, base, kDrumSides, options.stone));
+  const double abacus = column.height_m - 0.32 * r;
   const std::vector<Vec2> capital = capital_profile(r, abacus - 0.84 * r, n);
-  add_shaft(of, base.back().y(), capital.front().y(), chisel, parts);
-  parts.push_back(turned_part(round, capital, kDrumSides, chisel.stone));
-  parts.push_back(slab({-half, abacus, -half}, {half, of.height_m, half}, chisel.stone));
+  add_shaft(column, base.back().y(), capital.front().y(), options, parts);
+  parts.push_back(turned_part(round, capital, kDrumSides, options.stone));
+  parts.push_back(slab({-half, abacus, -half}, {half, column.height_m, half}, options.stone));
   return parts;
 }
 
-Part baluster(double height_m, const Chisel& chisel) {
+Part baluster(double height_m, const StoneOptions& options) {
   const double h = height_m;
-  const int n = chisel.arc();
+  const int n = options.arc();
   Profile p(0.1 * h, 0);
   p.to(0.1 * h, 0.06 * h).curve({0.115 * h, 0.09 * h}, 0.09 * h, 0.12 * h, n);
   p.to(0.06 * h, 0.14 * h).curve({0.05 * h, 0.17 * h}, 0.07 * h, 0.21 * h, n);
@@ -226,13 +227,13 @@ Part baluster(double height_m, const Chisel& chisel) {
   p.curve({0.05 * h, 0.58 * h}, 0.048 * h, 0.76 * h, 2 * n).to(0.07 * h, 0.78 * h);
   p.curve({0.09 * h, 0.81 * h}, 0.065 * h, 0.84 * h, n).to(0.06 * h, 0.87 * h);
   p.curve({0.06 * h, 0.92 * h}, 0.1 * h, 0.94 * h, n).to(0.1 * h, h);
-  return turned_part(circle(std::max(8, chisel.detail / 2)), p.points(), kBalusterSides,
-                     chisel.stone);
+  return turned_part(circle(std::max(8, options.detail / 2)), p.points(), kBalusterSides,
+                     options.stone);
 }
 
-Part urn(double height_m, const Chisel& chisel) {
+Part urn(double height_m, const StoneOptions& options) {
   const double h = height_m;
-  const int n = 2 * chisel.arc();
+  const int n = 2 * options.arc();
   Profile p(0.2 * h, 0);
   p.to(0.2 * h, 0.05 * h).curve({0.17 * h, 0.1 * h}, 0.08 * h, 0.13 * h, n).to(0.08 * h, 0.17 * h);
   p.curve({0.34 * h, 0.26 * h}, 0.32 * h, 0.52 * h, n);
@@ -240,14 +241,14 @@ Part urn(double height_m, const Chisel& chisel) {
   p.curve({0.27 * h, 0.74 * h}, 0.27 * h, 0.76 * h, n)
       .curve({0.2 * h, 0.84 * h}, 0.06 * h, 0.88 * h, n);
   p.curve({0.12 * h, 0.93 * h}, 0.07 * h, 0.97 * h, n).to(0.02 * h, h);
-  return turned_part(circle(chisel.detail), p.points(), kBalusterSides, chisel.stone);
+  return turned_part(circle(options.detail), p.points(), kBalusterSides, options.stone);
 }
 
-Part statue(double height_m, const Chisel& chisel) {
+Part statue(double height_m, const StoneOptions& options) {
   constexpr int kFolds = 11;
-  const int around = std::max(12, chisel.detail), between = std::max(1, chisel.arc() / 2);
+  const int around = std::max(12, options.detail), between = std::max(1, options.arc() / 2);
   std::vector<Ring> rings;
-  const auto add = [&](const Waist& a, const Waist& b, double t) {
+  const auto add = [&](const CrossSection& a, const CrossSection& b, double t) {
     const auto mix = [&](double p, double q) { return (p + t * (q - p)) * height_m; };
     const double folds = mix(a.folds, b.folds) / height_m, y = mix(a.y, b.y);
     Ring& ring = rings.emplace_back();
@@ -263,7 +264,7 @@ Part statue(double height_m, const Chisel& chisel) {
     for (int k = 0; k < between; ++k) add(kFigure[i], kFigure[i + 1], k / double(between));
   }
   add(std::end(kFigure)[-1], std::end(kFigure)[-1], 0);
-  return lofted(rings, prism_around(rings, kBalusterSides), chisel.stone);
+  return lofted(rings, prism_around(rings, kBalusterSides), options.stone);
 }
 
 double ArchedWall::shoulder_x() const {
@@ -274,15 +275,15 @@ double ArchedWall::shoulder_y() const {
   return on_circle(outer_m(), std::numbers::pi / voussoirs).y();
 }
 
-Parts arched_wall(const ArchedWall& arch, const Chisel& chisel, MaterialIndex wall) {
+Parts arched_wall(const ArchedWall& arch, const StoneOptions& options, MaterialIndex wall) {
   Parts parts;
   const auto joint = [&](int i) {
     return i == arch.voussoirs ? std::numbers::pi : std::numbers::pi * i / arch.voussoirs;
   };
   for (int i = 0; i < arch.voussoirs; ++i) {
     const Voussoir voussoir{arch, joint(i), joint(i + 1)};
-    parts.push_back(voussoir.stone(chisel));
-    parts.push_back(voussoir.moulding(chisel));
+    parts.push_back(voussoir.stone(options));
+    parts.push_back(voussoir.moulding(options));
     if (i == 0 || i + 1 == arch.voussoirs) continue;
     const Vec2 a = voussoir.at(arch.outer_m(), 0), b = voussoir.at(arch.outer_m(), 1);
     const std::array corners = {a, b, Vec2(b.x(), arch.top_m), Vec2(a.x(), arch.top_m)};
@@ -292,18 +293,18 @@ Parts arched_wall(const ArchedWall& arch, const Chisel& chisel, MaterialIndex wa
 }
 
 Part Bay::bar(double z0, double z1, double bottom, double top, MaterialIndex material) const {
-  const std::array plan = {Vec2(-flank(z0), z0), Vec2(flank(z0), z0), Vec2(flank(z1), z1),
-                           Vec2(-flank(z1), z1)};
+  const std::array plan = {Vec2(-half_width(z0), z0), Vec2(half_width(z0), z0),
+                           Vec2(half_width(z1), z1), Vec2(-half_width(z1), z1)};
   return {block(plan, bottom, top), material};
 }
 
-Part Bay::ring(const Profile& profile, const Chisel& chisel, bool flat_back) const {
+Part Bay::ring(const Profile& profile, const StoneOptions& options, bool flat_back) const {
   double least = 1e300, most = 0, bottom = 1e300, top = -1e300;
   for (const Vec2& p : profile.points()) {
     least = std::min(least, p.x()), most = std::max(most, p.x());
     bottom = std::min(bottom, p.y()), top = std::max(top, p.y());
   }
-  const int segments = std::max(2, static_cast<int>(half_rad_ * chisel.detail / 0.8));
+  const int segments = std::max(2, static_cast<int>(half_rad_ * options.detail / 0.8));
   std::vector<Ring> rings;
   for (int i = 0; i <= segments; ++i) {
     const SinCos turn = sin_cos(half_rad_ * (2.0 * i / segments - 1));
@@ -314,7 +315,7 @@ Part Bay::ring(const Profile& profile, const Chisel& chisel, bool flat_back) con
     }
   }
   const double inner = flat_back ? least : least * half_.cos;
-  return lofted(rings, bar(inner, most, bottom, top, chisel.stone).polyhedron, chisel.stone);
+  return lofted(rings, bar(inner, most, bottom, top, options.stone).polyhedron, options.stone);
 }
 
 }  // namespace sunder::scenes

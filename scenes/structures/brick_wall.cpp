@@ -1,4 +1,4 @@
-// A dry wall in running bond: every brick a body of its own.
+// The structure `brick_wall`: a dry wall in running bond; every brick is a body of its own.
 #include "engine/base/random.h"
 #include "scenes/structures/structure.h"
 
@@ -14,8 +14,8 @@ struct BrickWall {
   double second_share = 0;
 };
 
-/// A course is full bricks and one half, at the left end and at the right end by turns: so all
-/// courses are equally long and no joint lies over another.
+/// Builds the wall. Each course has full bricks and one half brick, which is alternately at the
+/// right and at the left end, so that all courses are equally long and no joint is over another.
 std::vector<Piece> build_brick_wall(const BrickWall& wall) {
   check_parts(double(wall.bricks) * wall.courses);
   const Vec3& brick = wall.brick_m;

@@ -1,7 +1,7 @@
-// A stone bridge of round arches between two abutments: one compound.
+// The structure `bridge`: a stone bridge of round arches between two abutments; one compound.
 //
-// Read first: BridgeBuilder::build(). An arch is a ring of voussoirs; over each stands a block that
-// reaches up to the deck, so that all meet face to face.
+// Read first: BridgeBuilder::build(). An arch is a ring of voussoirs. Over each voussoir, a block
+// extends up to the deck, so that all parts meet face to face.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,7 +28,7 @@ struct Bridge {
   MaterialRef deck{"stone", {}};
 };
 
-constexpr double kCover = 0.15;  // m, of stone between the crown and the deck
+constexpr double kCover = 0.15;  // m, thickness of the stone between the crown and the deck
 
 class BridgeBuilder {
  public:
@@ -42,7 +42,7 @@ class BridgeBuilder {
     const double half = bridge_.spans * outer_m_, end = half + bridge_.abutment_m;
     for (int i = 0; i < bridge_.spans; ++i) add_arch((2 * i + 1) * outer_m_ - half);
     for (int i = 1; i < bridge_.spans; ++i) add_pier(2 * i * outer_m_ - half);
-    // What carries an arch at its outer end carries half of a pier's width.
+    // The bearing of an arch at an abutment is half as wide as a pier.
     for (const double side : {-1.0, 1.0}) {
       const double face = side * half, back = side * end, ring = face - side * bridge_.ring_m;
       add_box(std::min(face, back), std::max(face, back), 0, top_m_);
@@ -62,7 +62,7 @@ class BridgeBuilder {
 
   void add_pier(double x) { add_box(x - bridge_.ring_m, x + bridge_.ring_m, 0, bridge_.pier_m); }
 
-  /// A polygon of four corners in the plane of the arch, through the whole width in slices.
+  /// Adds a quadrangle in the plane of the arch, extruded over the whole width in slices.
   void add_prism(const std::array<Vec2, 4>& corners) {
     for (int k = 0; k < slices_; ++k) {
       std::vector<Vec3> points;
@@ -77,7 +77,7 @@ class BridgeBuilder {
   void add_arch(double middle) {
     const auto at = [&](double radius, int joint) -> Vec2 {
       const SinCos angle = sin_cos(std::numbers::pi * joint / bridge_.voussoirs);
-      // The feet are level to the last bit, and so is what stands beside the next arch.
+      // The feet are exactly level, and exactly beside those of the next arch.
       const bool foot = joint == 0 || joint == bridge_.voussoirs;
       const double x = foot ? (joint == 0 ? radius : -radius) : radius * angle.cos;
       return {middle + x, bridge_.pier_m + (foot ? 0 : radius * angle.sin)};

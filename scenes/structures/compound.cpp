@@ -1,4 +1,4 @@
-// A structure of structures: parts that touch or overlap become one solid.
+// The structure `compound`: a solid of other structures as parts, which touch or overlap.
 //
 // Read first: build_compound().
 #include <algorithm>
@@ -17,19 +17,19 @@ namespace {
 
 struct NoParameters {};
 
-/// A [[solid.part]]: all its copies.
+/// The parts of all copies of a [[solid.part]].
 struct Member {
   const Value* table;
   std::vector<Part> parts;
 };
 
-Member read_member(const Value& table, const Site& site) {
+Member read_member(const Value& table, const BuildContext& context) {
   const Keys<PartHead>& keys = schema().part;
   PartHead head;
   read_keys(table, keys.table, keys.keys, {}, &head);
   const std::vector<Copy> copies = read_copies(table, keys.table);
-  const std::vector<Piece> pieces =
-      read_structure(table, keys.table, head.structure, {keys.keys, placement_keys().keys}, site);
+  const std::vector<Piece> pieces = read_structure(table, keys.table, head.structure,
+                                                   {keys.keys, placement_keys().keys}, context);
   Member member{&table, {}};
   for (const Copy& copy : copies) {
     for (const Piece& piece : pieces) {
@@ -37,7 +37,7 @@ Member read_member(const Value& table, const Site& site) {
       check_parts(static_cast<double>(member.parts.size() + more), table);
       for (const Pose& X_SM : piece.copies) {
         for (Part part : piece.parts) {
-          part.anchored = 0;  // the solid says how it is held
+          part.anchored = 0;  // the key `anchored` of the solid decides
           const Pose X_SP = X_SM * Pose{piece.at, Quat::Identity()};
           member.parts.push_back(placed(moved(std::move(part), X_SP), copy));
         }
@@ -50,7 +50,7 @@ Member read_member(const Value& table, const Site& site) {
 Compound joined(std::vector<Part> parts, const Value& table) {
   try {
     return fracture::make_compound(std::move(parts));
-  } catch (const InputError& error) {  // of too many overlaps
+  } catch (const InputError& error) {  // for too many overlaps
     throw InputError(table.where + ": " + error.what());
   }
 }
@@ -64,8 +64,8 @@ double distance(const Box& a, const Box& b) {
   return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0).norm();
 }
 
-/// Throws InputError about the smallest island, where there are several.
-void check_held_together(const Compound& whole, const std::vector<Member>& members) {
+/// Throws InputError if the compound has several islands; the message is about the smallest.
+void check_connected(const Compound& whole, const std::vector<Member>& members) {
   const std::vector<std::uint32_t> island = fracture::find_islands(whole);
   std::vector<std::size_t> size(*std::max_element(island.begin(), island.end()) + 1, 0);
   for (const std::uint32_t i : island) ++size[i];
@@ -93,11 +93,11 @@ void check_held_together(const Compound& whole, const std::vector<Member>& membe
                    "; move it, or make it a [[solid]] of its own");
 }
 
-std::vector<Piece> build_compound(const void*, const Value& table, const Site& site) {
+std::vector<Piece> build_compound(const void*, const Value& table, const BuildContext& context) {
   std::vector<Member> members;
   Piece whole;
   for (const Value* part : tables(table, "part")) {
-    members.push_back(read_member(*part, site));
+    members.push_back(read_member(*part, context));
     const std::vector<Part>& parts = members.back().parts;
     check_parts(static_cast<double>(whole.parts.size() + parts.size()), *part);
     whole.parts.insert(whole.parts.end(), parts.begin(), parts.end());
@@ -105,7 +105,7 @@ std::vector<Piece> build_compound(const void*, const Value& table, const Site& s
   if (whole.parts.empty()) {
     throw InputError(table.where + ": missing [[solid.part]]: a compound has at least one");
   }
-  check_held_together(joined(whole.parts, table), members);
+  check_connected(joined(whole.parts, table), members);
   return {whole};
 }
 

@@ -1,4 +1,4 @@
-// What structures stand on that the world holds.
+// Adds anchored foundation blocks under structures.
 #include <algorithm>
 #include <limits>
 

@@ -1,7 +1,8 @@
-// A hall of steel: portal frames of I-sections, purlins on them, and slabs that lie on these.
+// The structure `hall`: steel portal frames of I-sections, purlins, and loose slabs on these.
 //
-// Read first: HallBuilder::build(). Members are cut across into slices, so that a section of one is
-// a plane of bonds and may flow; the slabs are solids of their own, and load it by lying there.
+// Read first: HallBuilder::build(). Members are cut across into slices, so that each cross-section
+// between slices is a plane of bonds, which may yield. The slabs are solids of their own, and load
+// the purlins by contact alone.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -29,8 +30,8 @@ struct Hall {
 };
 
 constexpr double kFootPlate = 0.04;  // m, thickness
-constexpr double kGap = 0.02;        // m, between slabs: they do not jam when what bears them sags
-constexpr int kSlabs = 4;            // in a bay, one after the other
+constexpr double kGap = 0.02;        // m, between slabs, so that they do not jam as purlins sag
+constexpr int kSlabs = 4;            // slabs along z in a bay
 
 class HallBuilder {
  public:
@@ -53,8 +54,8 @@ class HallBuilder {
     steel_.push_back({make_box(min, max), hall_.steel.index, anchored});
   }
 
-  /// A slice of a member whose web lies in the plane of its frame: two flanges, `across` apart
-  /// (axis 0 of a column, 1 of a girder), and the web between them.
+  /// Adds a slice of a member whose web is in the plane of its frame: two flanges, which face along
+  /// the axis `across` (0 for a column, 1 for a girder), and the web between them.
   void add_slice(const Vec3& min, const Vec3& max, int across) {
     const double t = hall_.plate_m, middle = 0.5 * (min.z() + max.z());
     Vec3 inner_min = min, inner_max = max;
@@ -67,7 +68,7 @@ class HallBuilder {
     add(inner_min, inner_max);
   }
 
-  /// Along an axis, in slices of about block_m.
+  /// Adds a member along an axis, in slices of about block_m.
   void add_member(const Vec3& min, const Vec3& max, int along) {
     const double length = max[along] - min[along];
     const int count = std::max(1, static_cast<int>(std::lround(length / hall_.block_m)));
@@ -81,7 +82,7 @@ class HallBuilder {
     }
   }
 
-  /// Two columns on foot plates that the world holds, and a girder on them.
+  /// Adds two columns on anchored foot plates, and a girder on them.
   void add_frame(double z) {
     const double d = hall_.depth_m / 2, w = hall_.flange_m / 2, y = hall_.height_m;
     const double x = hall_.span_m / 2;
@@ -93,7 +94,7 @@ class HallBuilder {
     add_member(Vec3(-x + d, y, z - w), Vec3(x - d, on_girders(), z + w), 0);
   }
 
-  /// A bar over all frames, one block in the middle of each.
+  /// Adds a bar over all frames, in blocks, one of which is centred on each frame.
   void add_purlin(double x) {
     const int blocks = std::max(2, static_cast<int>(std::lround(hall_.bay_m / hall_.block_m)));
     const double w = hall_.purlin_m / 2, y = on_girders();
@@ -102,7 +103,7 @@ class HallBuilder {
       add(Vec3(x - w, y, level(i)), Vec3(x + w, y + hall_.purlin_m, level(i + 1)));
   }
 
-  /// Slabs from purlin to purlin, each a solid of its own.
+  /// Adds slabs from purlin to purlin, each a solid of its own.
   void add_roof(std::vector<Piece>& pieces) const {
     const double wide = hall_.span_m / (hall_.purlins - 1), deep = hall_.bay_m / kSlabs;
     const Vec3 half(0.5 * (wide - kGap), 0, 0.5 * (deep - kGap));
@@ -121,12 +122,12 @@ class HallBuilder {
 };
 
 std::vector<Piece> build_hall(const Hall& hall) {
-  const auto demand = [](bool holds, const char* what) {
+  const auto require = [](bool holds, const char* what) {
     if (!holds) throw InputError(std::string("hall: ") + what);
   };
-  demand(hall.depth_m > 3 * hall.plate_m && hall.flange_m > 2 * hall.plate_m,
-         "plate_m must be less than a third of depth_m and half of flange_m");
-  demand(hall.span_m > 4 * hall.depth_m, "span_m must exceed four times depth_m");
+  require(hall.depth_m > 3 * hall.plate_m && hall.flange_m > 2 * hall.plate_m,
+          "plate_m must be less than a third of depth_m and half of flange_m");
+  require(hall.span_m > 4 * hall.depth_m, "span_m must exceed four times depth_m");
   return HallBuilder(hall).build();
 }
 

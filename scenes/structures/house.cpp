@@ -1,4 +1,4 @@
-// A house of brick walls between concrete columns, floors and roof: one compound.
+// The structure `house`: brick walls between concrete columns, floors and a roof; one compound.
 //
 // Read first: HouseBuilder::build(). Walls are cut into boxes around their openings; boxes that
 // touch share a plane and are bonded.
@@ -29,16 +29,16 @@ struct House {
 };
 
 constexpr double kSill = 0.9;        // m, height of a window's lower edge
-constexpr double kWindowTop = 2.15;  // m, of windows and doors alike
-constexpr double kLintel = 0.2;      // m
+constexpr double kWindowTop = 2.15;  // m, height of the upper edge of windows and doors
+constexpr double kLintel = 0.2;      // m, height
 constexpr double kDoor = 1.1;        // m, width
 
-/// A hole in a wall: [left, right] along it, from `bottom` (of the wall) to kWindowTop.
+/// A hole in a wall: [left, right] along the wall, from `bottom` above the floor to kWindowTop.
 struct Opening {
   double left, right, bottom;
 };
 
-/// One wall of one storey; u runs along it, the other axis across.
+/// One wall of one storey; u is the coordinate along the wall.
 struct Wall {
   bool along_x;
   double u0, u1;            // ends
@@ -95,7 +95,7 @@ class HouseBuilder {
     }
   }
 
-  /// Evenly spaced windows; with a door, one in the middle goes down to the floor.
+  /// Returns evenly spaced windows; with a door, the middle opening is one.
   std::vector<Opening> openings(const Wall& wall, int windows, bool with_door) const {
     const int count = windows + (with_door ? 1 : 0);
     std::vector<Opening> all;
@@ -108,7 +108,7 @@ class HouseBuilder {
     return all;
   }
 
-  /// Full-height strips between the openings; under and over each opening a strip of its width.
+  /// Adds strips of full height between the openings, and strips under and over each opening.
   void add_wall(const Wall& wall, const std::vector<Opening>& openings) {
     double u = wall.u0;
     for (const Opening& opening : openings) {
@@ -138,17 +138,17 @@ class HouseBuilder {
 };
 
 void check_sizes(const House& house) {
-  const auto demand = [](bool holds, const std::string& what) {
+  const auto require = [](bool holds, const std::string& what) {
     if (!holds) throw InputError("house: " + what);
   };
   const double clear = std::min(house.width_m, house.depth_m) - 2 * house.column_m;
-  demand(house.wall_m <= house.column_m, "wall_m must not exceed column_m");
-  demand(clear > kDoor + 0.2, "width_m and depth_m leave no room for a door between the columns");
-  demand(house.storey_m > kWindowTop + kLintel + 0.05, "storey_m must exceed 2.4");
+  require(house.wall_m <= house.column_m, "wall_m must not exceed column_m");
+  require(clear > kDoor + 0.2, "width_m and depth_m leave no room for a door between the columns");
+  require(house.storey_m > kWindowTop + kLintel + 0.05, "storey_m must exceed 2.4");
   const double front = (house.width_m - 2 * house.column_m) / (house.windows + 1);
   const double side = (house.depth_m - 2 * house.column_m) / std::max(1, house.windows - 1);
-  demand(std::min(front, side) > house.window_m + 0.1,
-         "windows of window_m do not fit side by side; take fewer, or a larger house");
+  require(std::min(front, side) > house.window_m + 0.1,
+          "windows of window_m do not fit side by side; take fewer, or a larger house");
 }
 
 std::vector<Piece> build_house(const House& house) {

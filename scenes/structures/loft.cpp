@@ -19,8 +19,9 @@ namespace sunder::scenes {
 namespace {
 
 constexpr double kCircle = 2 * std::numbers::pi;
-constexpr double kCreaseCosine = 0.766;  // of 40°
-constexpr double kFlat = 1e-9;           // of the size of a face: how far it may be from flat
+constexpr double kCreaseCosine = 0.766;  // cos 40°
+/// A quadrangle is flat if its volume is at most this fraction of the cube of its size.
+constexpr double kFlatnessTolerance = 1e-9;
 
 using Corners = std::vector<std::uint32_t>;
 
@@ -35,7 +36,7 @@ bool is_flat(const RawMesh& mesh, const Corners& quad) {
   const Vec3 p = mesh.vertices[quad[1]] - a, q = mesh.vertices[quad[2]] - a,
              r = mesh.vertices[quad[3]] - a;
   const double size = q.norm() + (r - p).norm();
-  return std::abs(p.cross(q).dot(r)) <= kFlat * size * size * size;
+  return std::abs(p.cross(q).dot(r)) <= kFlatnessTolerance * size * size * size;
 }
 
 void add_side(RawMesh& mesh, const Corners& quad) {
@@ -53,7 +54,7 @@ double volume_of(const RawMesh& mesh) {
   return six / 6;
 }
 
-/// Turned outward, whichever way the rings ran.
+/// Returns the polygons of the solid between rings, facing outward for either order of the rings.
 RawMesh joined(std::span<const Ring> rings) {
   const auto around = static_cast<std::uint32_t>(rings[0].size());
   const auto last = static_cast<std::uint32_t>(rings.size() - 1) * around;
@@ -138,7 +139,7 @@ std::vector<Vec2> circle(int segments) {
 }
 
 std::vector<Vec2> fluted(int flutes, int segments, double depth) {
-  constexpr double kFillet = 0.15;  // of a flute's width, left between two
+  constexpr double kFillet = 0.15;  // width of the ridge between two flutes, of their pitch
   std::vector<Vec2> outline;
   for (int i = 0; i < flutes; ++i) {
     for (int k = 0; k <= segments; ++k) {

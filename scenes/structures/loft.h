@@ -1,7 +1,7 @@
-// Members of curved stone: a visual mesh drawn from ring to ring, in a convex of few faces.
+// Parts with curved surfaces: a visual mesh lofted from ring to ring, in a convex of few faces.
 //
-// Read first: loft(). What is turned (columns, balusters), swept along a line or round an arch is
-// all the same: rings of equally many points.
+// Read first: loft(). Surfaces of revolution (columns, balusters) and sweeps along a line or an
+// arch are all lofts between rings with equal numbers of points.
 #pragma once
 
 #include <span>
@@ -16,17 +16,18 @@ namespace sunder::scenes {
 /// A closed polygon in space.
 using Ring = std::vector<Vec3>;
 
-/// The solid between rings, each joined to the next point by point, with a flat face at either end.
-/// Quadrangles that are not flat are halved; shaded round where faces meet at less than 40°.
+/// Returns the solid between rings, each of which is joined to the next point by point, with a flat
+/// face at either end. Quadrangles that are not flat are split into triangles. Edges between faces
+/// at less than 40° are shaded smooth.
 PolygonMesh loft(std::span<const Ring> rings);
 
-/// A line of straight and curved strokes: the profile of a moulding.
+/// A path of straight lines and parabolas in a plane, such as the profile of a moulding.
 class Profile {
  public:
   Profile(double x, double y) : points_{{x, y}} {}
+  /// Appends a line to (x, y).
   Profile& to(double x, double y);
-  /// A parabola from where it ends, to (x, y), that leaves and arrives in the direction of
-  /// `control`.
+  /// Appends a quadratic Bézier curve to (x, y), as `segments` lines.
   Profile& curve(const Vec2& control, double x, double y, int segments);
   const std::vector<Vec2>& points() const { return points_; }
 
@@ -34,21 +35,21 @@ class Profile {
   std::vector<Vec2> points_;
 };
 
-/// What is turned on a lathe about y: an outline of about unit radius in x and z, in the sizes of a
-/// profile of (radius, height), from below.
+/// Returns the rings of a solid about y: an outline in x and z of about unit radius, scaled and
+/// raised by each (radius, height) of the profile, which is given from below.
 std::vector<Ring> turned(std::span<const Vec2> outline, std::span<const Vec2> profile);
-/// A circle of unit radius.
+/// Returns a circle of unit radius.
 std::vector<Vec2> circle(int segments);
-/// The outline of a fluted shaft of unit radius; 0 deep: a circle with the same points.
+/// Returns the outline of a fluted shaft of unit radius; for depth 0, a circle of as many points.
 std::vector<Vec2> fluted(int flutes, int segments, double depth);
 
-/// An upright prism about y that encloses the rings, with `sides` sides.
+/// Returns an upright regular prism about y with `sides` sides that encloses the rings.
 ConvexPolyhedron prism_around(std::span<const Ring> rings, int sides);
-/// The convex solid with these corners at two heights; a prism if both are the same.
+/// Returns the prism on a convex polygon of (x, z) between two heights.
 ConvexPolyhedron block(std::span<const Vec2> plan_xz, double bottom, double top);
 
-/// A part seen as the solid between rings. It collides as `region`, which encloses it, clipped to
-/// fit.
+/// Returns a part whose visual mesh is the solid between rings, and whose convex is `region`, which
+/// must enclose the rings, clipped to fit them.
 Part lofted(std::span<const Ring> rings, const ConvexPolyhedron& region, MaterialIndex material);
 
 }  // namespace sunder::scenes

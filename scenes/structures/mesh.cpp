@@ -1,4 +1,4 @@
-// A mesh as a part of a compound.
+// The structure `mesh`: a decomposed mesh, for parts of a compound.
 #include "scenes/file/body.h"
 #include "scenes/file/moved_part.h"
 #include "scenes/structures/structure.h"
@@ -6,11 +6,13 @@
 namespace sunder::scenes {
 namespace {
 
-std::vector<Piece> build_mesh(const void* parameters, const Value& table, const Site& site) {
+std::vector<Piece> build_mesh(const void* parameters, const Value& table,
+                              const BuildContext& context) {
   try {
     MeshTable given = *static_cast<const MeshTable*>(parameters);
-    read_named_materials(table, site.materials, given);
-    const Compound compound = read_compound(given, site.folder, site.paints, site.warnings);
+    read_named_materials(table, context.materials, given);
+    const Compound compound =
+        read_compound(given, context.folder, context.paints, context.warnings);
     const Pose to_foot{-foot_of(compound), Quat::Identity()};
     Piece piece;
     for (Part& part : parts_of(compound)) piece.parts.push_back(moved(std::move(part), to_foot));

@@ -1,8 +1,8 @@
-// A box of concrete with bars of steel in it: one compound.
+// The structure `reinforced`: a box of concrete with bars of steel in it; one compound.
 //
-// Bars come in lengths as long as the blocks, and end where these do: where the blocks part, what
-// bonds the lengths of a bar holds alone, and may bend there. A length overlaps its own block and
-// no other along the bar, so nothing else ties two blocks together.
+// Bars are cut into segments at the joints between blocks. Where the bonds between two blocks are
+// broken, the bonds between the segments of the bars alone connect them, and may yield there. A
+// segment overlaps no block but its own, so there is no other connection.
 #include <algorithm>
 #include <cmath>
 
@@ -22,10 +22,10 @@ struct Reinforced {
   MaterialRef steel{"steel", {}};
 };
 
-/// The box [min, max] cut along an axis into so many lengths, whose ends are the same to the last
-/// bit for all boxes that reach as far.
-void add_lengths(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max, int axis,
-                 int count, MaterialIndex material) {
+/// Appends the box [min, max], cut along an axis into `count` equal segments. Boxes with equal
+/// extents along the axis are cut at exactly equal coordinates.
+void add_segments(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max, int axis,
+                  int count, MaterialIndex material) {
   check_parts(static_cast<double>(parts.size()) + count);
   for (int i = 0; i < count; ++i) {
     const auto level = [&](int k) {
@@ -37,7 +37,7 @@ void add_lengths(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3
   }
 }
 
-/// Bars come first: where they overlap concrete it is they that weigh.
+/// Builds the box. Bars come first, so that their overlap with concrete has their density.
 std::vector<Piece> build_reinforced(const Reinforced& box) {
   int along = 0;
   box.size_m.maxCoeff(&along);
@@ -61,10 +61,10 @@ std::vector<Piece> build_reinforced(const Reinforced& box) {
       Vec3 low = min, high = max;
       low[u] = middle(u, i) - box.bar_m / 2, high[u] = low[u] + box.bar_m;
       low[v] = middle(v, j) - box.bar_m / 2, high[v] = low[v] + box.bar_m;
-      add_lengths(piece.parts, low, high, along, count, box.steel.index);
+      add_segments(piece.parts, low, high, along, count, box.steel.index);
     }
   }
-  add_lengths(piece.parts, min, max, along, count, box.material.index);
+  add_segments(piece.parts, min, max, along, count, box.material.index);
   return {piece};
 }
 

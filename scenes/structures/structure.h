@@ -1,7 +1,7 @@
-// Procedural structures: what [[solid]] structure = "..." can name.
+// Procedural structures, which [[solid]] structure = "..." names.
 //
-// Every structure is built around the middle of its foot: y = 0 is its lowest level, x and z are
-// centred.
+// Every structure is built about the middle of its foot: its lowest level is y = 0, and it is
+// centred in x and z.
 #pragma once
 
 #include <filesystem>
@@ -18,39 +18,40 @@
 
 namespace sunder::scenes {
 
-/// One solid of a structure: parts that move as one, placed at `at`; or, turned about y, so many
-/// alike, which share their convexes.
+/// Parts of a structure that move as one, and the copies of them, which share their convexes.
 struct Piece {
   std::vector<fracture::Part> parts;
-  Vec3 at = Vec3::Zero();
-  std::vector<Pose> copies = {Pose()};
+  Vec3 at = Vec3::Zero();               ///< Position of the parts' origin in each copy.
+  std::vector<Pose> copies = {Pose()};  ///< Poses of the copies, rotated about y.
 };
 
-/// What building needs to know of a scene.
-struct Site {
+/// Data of a scene for builders of structures.
+struct BuildContext {
   std::span<const Material> materials;
-  std::filesystem::path folder;  ///< Where files are sought.
-  std::vector<Paint>& paints;    ///< Of the scene, to append to, as are:
-  std::vector<std::string>& warnings;
+  std::filesystem::path folder;        ///< Folder in which files are sought.
+  std::vector<Appearance>& paints;     ///< Appearances of the scene; builders append to them.
+  std::vector<std::string>& warnings;  ///< Warnings of the scene; builders append to them.
 };
 
-/// A kind of structure: its keys in the scene file and how it is built.
+/// A kind of structure: its keys in the scene file, and its builder.
 struct StructureType {
   std::string_view name;
   std::string_view help;
   std::vector<Key> keys;
-  std::shared_ptr<void> (*parameters)();  ///< With their defaults.
-  /// From parameters as the table says. Throws InputError.
-  std::vector<Piece> (*build)(const void* parameters, const Value& table, const Site& site);
+  std::shared_ptr<void> (*parameters)();  ///< Returns new parameters with their defaults.
+  /// Builds the structure from parameters, which were read from the table. Throws InputError with
+  /// file and line.
+  std::vector<Piece> (*build)(const void* parameters, const Value& table,
+                              const BuildContext& context);
 };
 
-/// A structure whose parameters are a `P`, built from them alone; `build` throws InputError without
-/// a place.
+/// Returns a structure that is built from its parameters, a `P`, alone; `build` throws InputError
+/// without file and line.
 template <class P, std::vector<Piece> (*build)(const P&)>
 StructureType make_structure(std::string_view name, std::string_view help, std::vector<Key> keys) {
   return {name, help, std::move(keys),
           []() -> std::shared_ptr<void> { return std::make_shared<P>(); },
-          [](const void* parameters, const Value& table, const Site&) {
+          [](const void* parameters, const Value& table, const BuildContext&) {
             try {
               return build(*static_cast<const P*>(parameters));
             } catch (const InputError& error) {
@@ -59,17 +60,18 @@ StructureType make_structure(std::string_view name, std::string_view help, std::
           }};
 }
 
-/// All there are, by name.
+/// Returns all kinds of structures, sorted by name.
 std::span<const StructureType> structures();
 
-/// The structure that a table called `name` asks for. The table may have `more` keys, which are
-/// read by others. Throws InputError.
+/// Builds the structure of a table, which errors call `name`. The table may also have the keys in
+/// `more`, which the caller reads. Throws InputError.
 std::vector<Piece> read_structure(const Value& table, std::string_view name,
                                   const std::string& structure,
                                   std::initializer_list<std::span<const Key>> more,
-                                  const Site& site);
-/// Puts a block under every part that reaches the structure's lowest level; the world holds the
-/// blocks. What yields goes on into the ground, as a bar does.
+                                  const BuildContext& context);
+/// Adds an anchored block under every part that reaches the structure's lowest level. The block is
+/// of the material `foundation`, or of the part's own material if that yields, as a steel bar that
+/// continues into the ground.
 void add_foundation(std::vector<Piece>& pieces, MaterialIndex foundation,
                     std::span<const Material> materials);
 
@@ -91,17 +93,17 @@ StructureType temple_structure();
 StructureType terrain_structure();
 StructureType wheel_structure();
 
-/// Throws InputError for more parts than any scene may hold.
+/// Throws InputError for more parts than any scene may have.
 void check_parts(double parts);
-/// The same, with a place.
+/// Throws InputError with the place of the table for more parts than any scene may have.
 void check_parts(double parts, const Value& table);
 
-/// The box [min, max] cut into equal blocks no longer than `longest_m`, appended to `parts`. Throws
-/// InputError for too many.
+/// Appends the box [min, max], cut into equal blocks no longer than `longest_m`. Throws InputError
+/// for too many.
 void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3& max,
                 double longest_m, MaterialIndex material);
-/// A convex polygon in x and y drawn out along z, half to either side, in slices no thicker than
-/// `longest_m`, appended to `parts`. Throws InputError for too many.
+/// Appends a convex polygon in x and y that is extruded along z from -depth_m / 2 to depth_m / 2,
+/// in slices no thicker than `longest_m`. Throws InputError for too many.
 void add_slices(std::vector<fracture::Part>& parts, std::span<const Vec2> corners, double depth_m,
                 double longest_m, MaterialIndex material);
 

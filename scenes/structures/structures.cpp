@@ -1,4 +1,4 @@
-// The list of structures, and the small ones.
+// The list of structures, and the simple ones: box, stack, column, wheel and pane.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -69,7 +69,7 @@ struct Wheel {
   MaterialRef hub{"steel", {}};
 };
 
-/// Wedges in rings about a hub.
+/// Builds a wheel of wedges in rings about a hub.
 std::vector<Piece> build_wheel(const Wheel& wheel) {
   if (wheel.hub_m >= wheel.radius_m) throw InputError("wheel: hub_m must be less than radius_m");
   const auto add_corners = [&](double radius_m, int sector, std::vector<Vec3>& corners) {
@@ -102,7 +102,7 @@ struct Pane {
   MaterialRef frame{"steel", {}};
 };
 
-/// Glass in four bars, bonded where they touch; the lowest is the foot that all of it stands on.
+/// Builds a pane in a frame of four bars, bonded where they touch; the lowest bar is anchored.
 std::vector<Piece> build_pane(const Pane& pane) {
   Piece piece;
   const double f = pane.frame_m, w = pane.width_m / 2, h = pane.height_m, t = pane.thickness_m / 2;
@@ -124,11 +124,11 @@ std::vector<Piece> build_pane(const Pane& pane) {
 }  // namespace
 
 void check_parts(double parts) {
-  constexpr double kMost = 200000;  // as limits.bodies
-  if (parts <= kMost) return;
+  constexpr double kMaxParts = 200000;  // as the highest limits.bodies
+  if (parts <= kMaxParts) return;
   char text[100];
   std::snprintf(text, sizeof text, "%.3g parts, more than %.0f; make them larger, or fewer", parts,
-                kMost);
+                kMaxParts);
   throw InputError(text);
 }
 
@@ -149,7 +149,7 @@ void add_blocks(std::vector<fracture::Part>& parts, const Vec3& min, const Vec3&
         std::max(1, static_cast<int>(std::ceil(extent[a] / longest_m - 1e-9)));
   }
   check_parts(static_cast<double>(parts.size()) + double(count[0]) * count[1] * count[2]);
-  // The outermost levels are taken as given, so that neighbours share them to the last bit.
+  // The outermost levels are exactly min and max, so that neighbouring boxes share planes.
   const auto level = [&](int axis, int i) {
     const int n = count[static_cast<std::size_t>(axis)];
     return i == n ? max[axis] : min[axis] + extent[axis] * i / n;
@@ -217,7 +217,7 @@ StructureType wheel_structure() {
 std::vector<Piece> read_structure(const Value& table, std::string_view name,
                                   const std::string& structure,
                                   std::initializer_list<std::span<const Key>> more,
-                                  const Site& site) {
+                                  const BuildContext& context) {
   const StructureType& type =
       find_named(structures(), structure,
                  find(table, "structure")->where + ": unknown structure '" + structure + "'");
@@ -227,8 +227,8 @@ std::vector<Piece> read_structure(const Value& table, std::string_view name,
   known.insert(known.end(), type.keys.begin(), type.keys.end());
   check_known(table, full_name, {known});
   const std::shared_ptr<void> parameters = type.parameters();
-  read_keys(table, full_name, type.keys, site.materials, parameters.get());
-  return type.build(parameters.get(), table, site);
+  read_keys(table, full_name, type.keys, context.materials, parameters.get());
+  return type.build(parameters.get(), table, context);
 }
 
 std::span<const StructureType> structures() {

@@ -1,7 +1,7 @@
-// A temple: steps, columns of drums all round, beams on them, a ceiling and a gabled roof; one
-// compound.
+// The structure `temple`: steps, columns of drums on all sides, beams on them, a ceiling and a
+// gabled roof; one compound.
 //
-// Read first: TempleBuilder::build(), from the ground up.
+// Read first: TempleBuilder::build(), which goes from the ground up.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -30,7 +30,7 @@ constexpr double kStep = 0.2;      // m, height and depth of a step
 constexpr double kCapital = 0.2;   // m, height
 constexpr double kBeam = 0.5;      // m, height
 constexpr double kCeiling = 0.25;  // m, thickness
-constexpr double kEaves = 0.3;     // m, that the roof stands out
+constexpr double kEaves = 0.3;     // m, overhang of the roof
 constexpr int kSides = 16;
 
 class TempleBuilder {
@@ -83,7 +83,7 @@ class TempleBuilder {
     add(x - half_, y + shaft, z - half_, x + half_, y + temple_.height_m, z + half_);
   }
 
-  /// From axis to axis; the outermost reach over the corners.
+  /// Adds beams from column axis to column axis; the outermost extend over the corners.
   void add_beams(double y) {
     for (const double z : {-z_, z_}) {
       for (int i = 0; i + 1 < temple_.columns_x; ++i) {
@@ -103,7 +103,7 @@ class TempleBuilder {
     }
   }
 
-  /// The ridge runs along x; each side is cut across it, and once along.
+  /// Adds a roof with its ridge along x; each side is cut across the ridge, and once along it.
   void add_roof(double y, double x, double z) {
     const int cuts = std::max(1, static_cast<int>(std::ceil(2 * x / temple_.block_m)));
     const double middle = y + temple_.rise_m / 2, ridge = y + temple_.rise_m;
@@ -116,7 +116,7 @@ class TempleBuilder {
     }
   }
 
-  /// A polygon of (z, y), from one x to another.
+  /// Adds a polygon of (z, y), extruded from one x to another.
   void add_prism(double from, double to, const std::vector<Vec2>& corners) {
     std::vector<Vec3> points;
     for (const double x : {from, to}) {
@@ -126,8 +126,8 @@ class TempleBuilder {
   }
 
   const Temple& temple_;
-  const double x_, z_;  // of the outermost axes
-  const double half_;   // of the width of beams and capitals
+  const double x_, z_;  // coordinates of the outermost column axes
+  const double half_;   // half the width of beams and capitals
   std::vector<fracture::Part> parts_;
 };
 

@@ -1,4 +1,4 @@
-// A height field: under every triangle a prism, down to a level bottom.
+// The structure `terrain`: a height field, with a prism under every triangle.
 #include <algorithm>
 
 #include "engine/geometry/hull.h"
@@ -35,7 +35,7 @@ class TerrainBuilder {
   }
 
  private:
-  /// Rows go along z, columns along x, both about the middle.
+  /// Returns a point of the grid. Rows extend along x and columns along z, both centred.
   Vec3 corner(std::size_t row, std::size_t column) const {
     const HeightGrid& grid = terrain_.heights_m;
     const auto place = [&](std::size_t i, std::size_t count) {

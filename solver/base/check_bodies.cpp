@@ -8,7 +8,7 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kLargest = 1e15;  // m, kg, m/s: squares of it still fit a float
+constexpr double kMaxQuantity = 1e15;  // m, kg or m/s; the square still fits into a float
 
 struct Subject {
   std::string name;
@@ -17,16 +17,16 @@ struct Subject {
   }
 };
 
-bool finite(const Vec3& v) { return v.cwiseAbs().maxCoeff() < kLargest && v.allFinite(); }
+bool finite(const Vec3& v) { return v.cwiseAbs().maxCoeff() < kMaxQuantity && v.allFinite(); }
 
 void check_shape(const ShapeDesc& shape, const Subject& subject) {
-  const auto coefficient = [](double x) { return x >= 0 && x < kLargest; };
+  const auto coefficient = [](double x) { return x >= 0 && x < kMaxQuantity; };
   subject.require(coefficient(shape.friction), "has a friction that is negative or not finite");
   subject.require(coefficient(shape.restitution), "has a restitution that is no number from 0 on");
   subject.require(finite(shape.center_R), "has a centre that is not finite");
   switch (shape.kind) {
     case ShapeDesc::Kind::kSphere:
-      subject.require(shape.radius_m > 0 && shape.radius_m < kLargest,
+      subject.require(shape.radius_m > 0 && shape.radius_m < kMaxQuantity,
                       "is a sphere whose radius is not positive");
       break;
     case ShapeDesc::Kind::kHalfSpace:
@@ -54,7 +54,7 @@ void check_body(const BodyDesc& body) {
   if (!body.is_static) {
     subject.require(finite(body.velocity_W) && finite(body.angular_velocity_W),
                     "has a velocity that is not finite");
-    subject.require(body.mass_kg > 0 && body.mass_kg < kLargest,
+    subject.require(body.mass_kg > 0 && body.mass_kg < kMaxQuantity,
                     "has a mass that is not positive; make it static if it is not to move");
     subject.require(body.inertia_B.allFinite() && body.inertia_B.trace() > 0,
                     "has an inertia that is not positive");

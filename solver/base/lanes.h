@@ -1,4 +1,4 @@
-// One lane of vectors that lie side by side, as a vector.
+// Access to one lane of a wide vector as a Vec3f.
 #pragma once
 
 #include "engine/base/types.h"

@@ -1,4 +1,4 @@
-// Memory asked for some time before it is read.
+// Prefetching of memory into the cache.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace sunder::solver {
 
 inline constexpr std::size_t kCacheLine = 64;
 
-/// At most so many lines of an array, from its start.
+/// Prefetches the first cache lines of an array, at most `lines`.
 template <class T>
 void prefetch(std::span<const T> items, std::size_t lines) {
   const char* const start = reinterpret_cast<const char*>(items.data());

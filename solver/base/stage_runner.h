@@ -1,7 +1,7 @@
 // Runs a list of stages on all threads. A thread claims blocks of its own part of the current stage
-// first, then of the others': what lies side by side stays in the cache of one processor from
-// stage to stage. A stage begins when all blocks of the one before are done (not when all threads
-// have arrived, so that a thread that lost its processor holds up nobody unless it holds a block).
+// first, then blocks of other parts, so that the same items stay in the cache of one processor from
+// stage to stage. A stage begins when all blocks of the previous stage are done, not when all
+// threads have arrived: a preempted thread delays the others only while it holds a block.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,7 @@
 
 namespace sunder::solver {
 
-/// What a stage works on: `count` items starting at `first`, handed out `grain` at a time. What a
-/// grain is does not depend on the number of threads.
+/// `count` items from `first` on, in blocks of `grain` items, whatever the number of threads.
 struct StageItems {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
@@ -25,11 +24,11 @@ struct StageItems {
   std::uint32_t blocks() const { return (count + grain - 1) / grain; }
 };
 
-/// Below so many grains in the widest stage, one thread is as fast as many.
-inline constexpr std::uint32_t kLeastParallelGrains = 16;
+/// Number of blocks in the widest stage below which one thread is as fast as many.
+inline constexpr std::uint32_t kMinParallelBlocks = 16;
 
-/// Calls work(stage, begin, end) for every grain of every stage, stage after stage. A `Stage` is
-/// StageItems, and maybe what to do with them. `work` must not throw.
+/// Calls work(stage, begin, end) for every block of every stage, one stage after another. `Stage`
+/// must have the members of StageItems. `work` must not throw.
 template <class Stage, class Work>
 void run_stages(const std::vector<Stage>& stages, const Work& work) {
   std::uint32_t widest = 0;
@@ -38,7 +37,7 @@ void run_stages(const std::vector<Stage>& stages, const Work& work) {
     const std::uint32_t begin = block * stage.grain;
     work(stage, stage.first + begin, stage.first + std::min(stage.count, begin + stage.grain));
   };
-  if (widest < kLeastParallelGrains || !may_share_work()) {
+  if (widest < kMinParallelBlocks || !can_run_parallel()) {
     for (const Stage& stage : stages)
       for (std::uint32_t block = 0; block < stage.blocks(); ++block) run(stage, block);
     return;
@@ -50,7 +49,7 @@ void run_stages(const std::vector<Stage>& stages, const Work& work) {
   const std::unique_ptr<Count[]> claimed(new Count[stages.size() * parts]);
   const std::unique_ptr<Count[]> done(new Count[stages.size()]);
   std::atomic<std::uint32_t> arrived{0};
-  work_together([&] {
+  run_on_free_threads([&] {
     const std::uint32_t rank = arrived.fetch_add(1, std::memory_order_relaxed);
     for (std::size_t s = 0; s < stages.size(); ++s) {
       const std::uint64_t blocks = stages[s].blocks();

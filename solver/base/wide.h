@@ -1,9 +1,10 @@
-// Several floats at a time: the only place with vector extensions. Every operation is IEEE and lane
-// by lane, so a wide kernel gives the bits of a scalar one.
+// Vectors of several floats by compiler vector extensions, which no other file uses. Every
+// operation is IEEE and acts on each lane alone, so a wide kernel gives the same bits as a scalar
+// one.
 //
-// Collision works eight at a time (Wide); the contact solver is compiled for 1, 4, 8 and 16 lanes,
-// each with an instruction set of its own. So all of this is inlined by force: what the linker
-// shared between them could be code that this processor does not have.
+// Collision uses eight lanes (Wide); the contact solver is compiled for 1, 4, 8 and 16 lanes, each
+// with its own instruction set. All functions are therefore force-inlined: the linker would merge
+// their copies, and the one it keeps may use instructions that this processor lacks.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +23,8 @@ struct Vectors {
   typedef std::int32_t Int __attribute__((vector_size(4 * lanes)));
 };
 
-/// One lane. GCC 12 has vectors of one float too, but code with them bounced nothing at -O2 (and
-/// did at -O1, or without -ftree-vrp).
+/// A vector of one lane. GCC 12 miscompiles its own vectors of one float at -O2 (restitution had no
+/// effect; correct at -O1 or without -ftree-vrp).
 struct One {
   float x;
 
@@ -64,7 +65,7 @@ template <class V = Wide>
 SUNDER_INLINE V splat(float x) {
   return x - V{};
 }
-/// Eight floats side by side, on no boundary in particular.
+/// Loads eight consecutive floats from an unaligned address.
 SUNDER_INLINE Wide load(const float* from) {
   typedef float Floats __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
   return *reinterpret_cast<const Floats*>(from);
@@ -77,21 +78,21 @@ template <class V>
 SUNDER_INLINE V max(V a, V b) {
   return a > b ? a : b;
 }
-/// The least of eight.
-SUNDER_INLINE float least_of(Wide v) {
+/// Returns the least of eight lanes.
+SUNDER_INLINE float min_lane(Wide v) {
   v = min(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
   v = min(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
   v = min(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
   return v[0];
 }
-SUNDER_INLINE float most_of(Wide v) { return -least_of(-v); }
+SUNDER_INLINE float max_lane(Wide v) { return -min_lane(-v); }
 template <class V>
 SUNDER_INLINE V sqrt(V x) {
   for (std::uint32_t i = 0; i < kLanesOf<V>; ++i) x[i] = __builtin_sqrtf(x[i]);
   return x;
 }
 
-/// Bit i is set where lane i of a comparison is true.
+/// Returns a bit mask in which bit i is set if lane i of a comparison is true.
 SUNDER_INLINE std::uint32_t bits(WideInt mask) {
 #ifdef __AVX__
   return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Wide>(mask)));
@@ -101,11 +102,11 @@ SUNDER_INLINE std::uint32_t bits(WideInt mask) {
   return set;
 #endif
 }
-/// The same of any number of lanes.
+/// Returns the bit mask of a comparison with any number of lanes.
 template <class Mask>
 SUNDER_INLINE std::uint32_t bits(Mask mask) {
   if constexpr (std::is_integral_v<Mask>) {
-    return mask != 0 ? 1 : 0;  // of one lane
+    return mask != 0 ? 1 : 0;  // one lane
   } else {
     std::uint32_t set = 0;
     for (std::uint32_t i = 0; i < sizeof(Mask) / sizeof(std::int32_t); ++i)
@@ -113,11 +114,11 @@ SUNDER_INLINE std::uint32_t bits(Mask mask) {
     return set;
   }
 }
-/// Whether some lane of a comparison is true.
+/// Returns true if any lane of a comparison is true.
 template <class Mask>
 SUNDER_INLINE bool any(Mask mask) {
   if constexpr (std::is_integral_v<Mask>) {
-    return mask != 0;  // of one lane
+    return mask != 0;  // one lane
   } else {
     std::int32_t set = 0;
     for (std::uint32_t i = 0; i < sizeof(Mask) / sizeof(std::int32_t); ++i) set |= mask[i];
@@ -125,10 +126,10 @@ SUNDER_INLINE bool any(Mask mask) {
   }
 }
 
-/// Chunks of eight that hold n items.
-constexpr std::uint32_t wide_count(std::uint32_t n) { return (n + kLanes - 1) / kLanes; }
+/// Returns the number of groups of eight lanes that hold n items.
+constexpr std::uint32_t lane_groups(std::uint32_t n) { return (n + kLanes - 1) / kLanes; }
 
-/// As many vectors as there are lanes.
+/// A vector in three dimensions per lane.
 template <class V>
 struct Triple {
   V x, y, z;
@@ -162,9 +163,9 @@ namespace detail {
 
 typedef float Simd4 __attribute__((vector_size(16), may_alias));
 
-/// The four at `offset` of rows 0, 4, 8 and so on, side by side. A row has eight floats.
+/// Loads four floats at `offset` of rows 0, 4, 8 and so on into consecutive lanes.
 template <class V>
-SUNDER_INLINE V quads(const float* const* row, std::uint32_t offset) {
+SUNDER_INLINE V load_quads(const float* const* row, std::uint32_t offset) {
   auto quad = [&](int i) { return *reinterpret_cast<const Simd4*>(row[i] + offset); };
   if constexpr (kLanesOf<V> == 4) {
     return quad(0);
@@ -193,9 +194,9 @@ SUNDER_INLINE void store_quads(V v, float* const* row, std::uint32_t offset) {
   }
 }
 
-/// The same choice within every four lanes: 0 to 3 from a, 4 to 7 from b.
+/// Shuffles every four lanes alike: choices 0 to 3 are lanes of a, 4 to 7 lanes of b.
 template <int... choice, class V, std::uint32_t... lane>
-SUNDER_INLINE V choose(V a, V b, std::integer_sequence<std::uint32_t, lane...>) {
+SUNDER_INLINE V shuffle_fours(V a, V b, std::integer_sequence<std::uint32_t, lane...>) {
   constexpr int kChoice[4] = {choice...};
   constexpr int kFromB = static_cast<int>(kLanesOf<V>) - 4;
   return __builtin_shufflevector(a, b,
@@ -203,39 +204,40 @@ SUNDER_INLINE V choose(V a, V b, std::integer_sequence<std::uint32_t, lane...>) 
                                   static_cast<int>(lane / 4 * 4))...);
 }
 template <int... choice, class V>
-SUNDER_INLINE V choose(V a, V b) {
-  return choose<choice...>(a, b, std::make_integer_sequence<std::uint32_t, kLanesOf<V>>());
+SUNDER_INLINE V shuffle_fours(V a, V b) {
+  return shuffle_fours<choice...>(a, b, std::make_integer_sequence<std::uint32_t, kLanesOf<V>>());
 }
 
-/// Every four by four becomes its transpose.
+/// Transposes each block of four by four lanes.
 template <class V>
 SUNDER_INLINE void transpose(V& a, V& b, V& c, V& d) {
-  const V ab_low = choose<0, 4, 1, 5>(a, b), ab_high = choose<2, 6, 3, 7>(a, b);
-  const V cd_low = choose<0, 4, 1, 5>(c, d), cd_high = choose<2, 6, 3, 7>(c, d);
-  a = choose<0, 1, 4, 5>(ab_low, cd_low), b = choose<2, 3, 6, 7>(ab_low, cd_low);
-  c = choose<0, 1, 4, 5>(ab_high, cd_high), d = choose<2, 3, 6, 7>(ab_high, cd_high);
+  const V ab_low = shuffle_fours<0, 4, 1, 5>(a, b), ab_high = shuffle_fours<2, 6, 3, 7>(a, b);
+  const V cd_low = shuffle_fours<0, 4, 1, 5>(c, d), cd_high = shuffle_fours<2, 6, 3, 7>(c, d);
+  a = shuffle_fours<0, 1, 4, 5>(ab_low, cd_low), b = shuffle_fours<2, 3, 6, 7>(ab_low, cd_low);
+  c = shuffle_fours<0, 1, 4, 5>(ab_high, cd_high), d = shuffle_fours<2, 3, 6, 7>(ab_high, cd_high);
 }
 
 }  // namespace detail
 
-/// Linear and angular parts of as many bodies as there are lanes.
+/// Linear and angular part of a motion, one body per lane.
 template <class V>
 struct Motion6 {
   Triple<V> linear, angular;
 };
 
-/// The eight floats at `offset` of every row, a row a lane.
+/// Loads eight floats at `offset` of each row: lane l of v[i] is row[l][offset + i].
 template <class V>
 SUNDER_INLINE void load_eight(const float* const* row, std::uint32_t offset, V (&v)[8]) {
   if constexpr (kLanesOf<V> == 1) {
     for (std::uint32_t i = 0; i < 8; ++i) v[i] = V{row[0][offset + i]};
   } else {
-    for (std::uint32_t i = 0; i < 8; ++i) v[i] = detail::quads<V>(row + i % 4, offset + i / 4 * 4);
+    for (std::uint32_t i = 0; i < 8; ++i)
+      v[i] = detail::load_quads<V>(row + i % 4, offset + i / 4 * 4);
     detail::transpose(v[0], v[1], v[2], v[3]);
     detail::transpose(v[4], v[5], v[6], v[7]);
   }
 }
-/// The way back.
+/// Stores to row[l][offset + i] lane l of v[i]: the inverse of load_eight(). Overwrites v.
 template <class V>
 SUNDER_INLINE void store_eight(V (&v)[8], float* const* row, std::uint32_t offset) {
   if constexpr (kLanesOf<V> == 1) {
@@ -248,14 +250,14 @@ SUNDER_INLINE void store_eight(V (&v)[8], float* const* row, std::uint32_t offse
   }
 }
 
-/// The first six of the eight floats of a row, a lane each.
+/// Loads the first six floats of each row, one row per lane.
 template <class V>
 SUNDER_INLINE Motion6<V> load_rows(const float* const* row) {
   V v[8];
   load_eight(row, 0, v);
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
-/// The way back; the last two of eight become 0.
+/// Stores a motion to rows of eight floats, one row per lane; the last two floats become 0.
 template <class V>
 SUNDER_INLINE void store_rows(const Motion6<V>& m, float* const* row) {
   V v[8] = {m.linear.x, m.linear.y, m.linear.z, m.angular.x, m.angular.y, m.angular.z, V{}, V{}};

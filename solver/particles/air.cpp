@@ -1,4 +1,4 @@
-// Read first: advance(), the list of a step's stages.
+// Read first: advance(), which lists the stages of a step.
 #include "solver/particles/air.h"
 
 #include <algorithm>
@@ -10,13 +10,15 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kAir_kg_m3 = 1.2f;
-constexpr float kTolerance = 8e-4f;  // of the fastest flow, in net outflow of a cell
-constexpr float kDamping = 0.25f;    // 1: advection of first order
-constexpr float kTight = 1.5f;       // a wall is tight from a thickness of 1 / kTight cells
-// Least open part of a face: a little leaks everywhere, so that closed rooms have a pressure, too.
-constexpr float kLeak = 0.02f;
+// Net outflow of a cell at which the pressure solve ends, as a fraction of the fastest flow.
+constexpr float kOutflowTolerance = 8e-4f;
+constexpr float kLinearShare = 0.25f;  // share of linear interpolation; 1: advection of first order
+// A wall of a thickness of at least 1 / this, in cells, is airtight.
+constexpr float kCoverGain = 1.5f;
+// Least open fraction of a face; above 0, so that the pressure in closed cavities is defined.
+constexpr float kMinOpenFraction = 0.02f;
 
-/// Calls work(first index, faces of the row, j, k) for every row of an axis' faces.
+/// Calls work(first index, number of faces in the row, j, k) for every row of faces of an axis.
 template <class Work>
 void for_faces(const Lattice& lattice, int axis, const Work& work) {
   const Vec3i last = lattice.counts + Vec3i::Unit(axis);
@@ -30,7 +32,7 @@ void for_faces(const Lattice& lattice, int axis, const Work& work) {
              });
 }
 
-/// Calls work(first index, cells of the row, j, k) for every row of cells.
+/// Calls work(first index, number of cells in the row, j, k) for every row of cells.
 template <class Work>
 void for_cells(const Lattice& lattice, const Work& work) {
   for_chunks(static_cast<std::size_t>(lattice.counts.z()), lattice.layers_a_chunk(),
@@ -45,37 +47,37 @@ void for_cells(const Lattice& lattice, const Work& work) {
 
 constexpr int kLongestRow = 136;
 
-/// Where the air at a row of faces comes from, in cells, no farther than one.
-struct Origins {
+/// Departure points of a row of faces: displacement upstream, in cells, at most one per axis.
+struct DeparturePoints {
   float x[kLongestRow], y[kLongestRow], z[kLongestRow];
   float* operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
-// By value, unlike those of the standard library: these vectorise.
+// Minimum and maximum by value: unlike those of the standard library, these vectorise.
 float least(float a, float b) { return a < b ? a : b; }
 float most(float a, float b) { return a > b ? a : b; }
-float within_one(float x) { return least(most(x, -1), 1); }
+float clamp_to_one_cell(float x) { return least(most(x, -1), 1); }
 
-/// Weights of three values in a row for the one at `x` upstream of the middle: quadratic
-/// interpolation, with a part of linear. Quadratic alone lets noise of the grid's size grow.
+/// Interpolation weights of three neighbouring values for a point `x` cells upstream of the middle
+/// one: quadratic, blended with linear, because quadratic alone amplifies noise at grid scale.
 struct Taps {
   float low, middle, high;
   explicit Taps(float x) {
-    const float linear = kDamping * most(x, -x);
-    const float square = (1 - kDamping) * x * x;
+    const float linear = kLinearShare * most(x, -x);
+    const float square = (1 - kLinearShare) * x * x;
     low = 0.5f * (square + linear + x);
     high = 0.5f * (square + linear - x);
     middle = 1 - square - linear;
   }
 };
 
-/// Interpolates q at `origins` upstream, between the values around.
-void advect_row(const float* q, std::ptrdiff_t sy, std::ptrdiff_t sz, const Origins& origins,
-                int count, float* __restrict out) {
+/// Interpolates q at the departure points, clamped to the range of the surrounding values.
+void advect_row(const float* q, std::ptrdiff_t sy, std::ptrdiff_t sz,
+                const DeparturePoints& departures, int count, float* __restrict out) {
   const float* rows[9];
   for (int r = 0; r < 9; ++r) rows[r] = q + (r % 3 - 1) * sy + (r / 3 - 1) * sz;
   for (int i = 0; i < count; ++i) {
-    const Taps tx(origins.x[i]), ty(origins.y[i]), tz(origins.z[i]);
+    const Taps tx(departures.x[i]), ty(departures.y[i]), tz(departures.z[i]);
     float low = rows[4][i], high = low;
     float along[9];
 #pragma GCC unroll 9
@@ -94,15 +96,16 @@ void advect_row(const float* q, std::ptrdiff_t sy, std::ptrdiff_t sz, const Orig
   }
 }
 
-/// Lets faces move with the solid that covers them, as far as it does; `open` is the rest.
-void cover_row(const float* fraction, const float* momentum, std::ptrdiff_t below, int count,
-               float* __restrict u, float* __restrict open) {
+/// Blends the velocity of each face of a row towards that of the solid that covers it, by the
+/// covered fraction, and writes the open fraction to `open`.
+void apply_solids_to_row(const float* fraction, const float* momentum, std::ptrdiff_t below,
+                         int count, float* __restrict u, float* __restrict open) {
   for (int i = 0; i < count; ++i) {
     const float solid = fraction[i] + fraction[i + below];
-    const float covered = least(kTight * solid, 1);
+    const float covered = least(kCoverGain * solid, 1);
     const float mean = (momentum[i] + momentum[i + below]) / most(solid, 1e-6f);
     u[i] += covered * (mean - u[i]);
-    open[i] = most(1 - kTight * solid, kLeak);
+    open[i] = most(1 - kCoverGain * solid, kMinOpenFraction);
   }
 }
 
@@ -110,10 +113,10 @@ void cover_row(const float* fraction, const float* momentum, std::ptrdiff_t belo
 
 Air::Air(const Vec3i& counts) : Flow(counts), solver_(counts) {
   const std::size_t size = grid_.lattice.size();
-  for (auto* fields : {&advected_, &thrown_Ns_}) {
+  for (auto* fields : {&advected_, &emitted_Ns_}) {
     for (Field& field : *fields) field.assign(size, 0);
   }
-  for (Field* field : {&dust_kg_, &thrown_kg_}) field->assign(size, 0);
+  for (Field* field : {&dust_kg_, &emitted_kg_}) field->assign(size, 0);
 }
 
 bool Air::place(const Box& dust, double ground_m) {
@@ -132,27 +135,27 @@ bool Air::place(const Box& dust, double ground_m) {
 void Air::advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles) {
   solids_.rasterize(grid_, obstacles);
   advect(static_cast<float>(dt_s));
-  load(static_cast<float>(dt_s), gravity_W.cast<float>());
-  couple();
+  apply_dust_loads(static_cast<float>(dt_s), gravity_W.cast<float>());
+  apply_solids();
   project();
 }
 
 void Air::clear_loads() {
-  for (const std::size_t cell : loaded_) {
-    dust_kg_[cell] = thrown_kg_[cell] = 0;
-    for (Field& thrown : thrown_Ns_) thrown[cell] = 0;
+  for (const std::size_t cell : dusty_cells_) {
+    dust_kg_[cell] = emitted_kg_[cell] = 0;
+    for (Field& emitted : emitted_Ns_) emitted[cell] = 0;
   }
-  loaded_.clear();
+  dusty_cells_.clear();
 }
 
 void Air::add_dust(std::size_t cell, float mass_kg) {
-  if (dust_kg_[cell] == 0) loaded_.push_back(cell);
+  if (dust_kg_[cell] == 0) dusty_cells_.push_back(cell);
   dust_kg_[cell] += mass_kg;
 }
 
 void Air::add_momentum(std::size_t cell, float mass_kg, const Vec3f& velocity_W) {
-  thrown_kg_[cell] += mass_kg;
-  for (int axis = 0; axis < 3; ++axis) of(thrown_Ns_, axis)[cell] += mass_kg * velocity_W[axis];
+  emitted_kg_[cell] += mass_kg;
+  for (int axis = 0; axis < 3; ++axis) of(emitted_Ns_, axis)[cell] += mass_kg * velocity_W[axis];
 }
 
 void Air::advect(float dt_s) {
@@ -161,53 +164,53 @@ void Air::advect(float dt_s) {
   const std::ptrdiff_t strides[] = {1, lattice.stride(1), lattice.stride(2)};
   for (int axis = 0; axis < 3; ++axis) {
     for_faces(lattice, axis, [&](std::size_t at, int count, int, int) {
-      Origins origins;
+      DeparturePoints departures;
       for (int other = 0; other < 3; ++other) {
         const float* u = &of(velocity_, other)[at];
-        float* origin = origins[other];
+        float* departure = departures[other];
         if (other == axis) {
-          for (int i = 0; i < count; ++i) origin[i] = within_one(cells_per_speed * u[i]);
+          for (int i = 0; i < count; ++i) departure[i] = clamp_to_one_cell(cells_per_speed * u[i]);
           continue;
         }
-        // The four faces around this one.
+        // Mean over the four nearest faces of the other axis.
         const std::ptrdiff_t back = -strides[axis], up = strides[other];
         for (int i = 0; i < count; ++i) {
           const float sum = u[i] + u[i + back] + (u[i + up] + u[i + up + back]);
-          origin[i] = within_one(0.25f * cells_per_speed * sum);
+          departure[i] = clamp_to_one_cell(0.25f * cells_per_speed * sum);
         }
       }
-      advect_row(&of(velocity_, axis)[at], strides[1], strides[2], origins, count,
+      advect_row(&of(velocity_, axis)[at], strides[1], strides[2], departures, count,
                  &of(advected_, axis)[at]);
     });
   }
   std::swap(velocity_, advected_);
 }
 
-/// Dust pulls the air down and gives it the momentum that it was thrown with.
-void Air::load(float dt_s, const Vec3f& gravity_W) {
+/// Applies the weight of the dust and the momentum of newly emitted dust to the air.
+void Air::apply_dust_loads(float dt_s, const Vec3f& gravity_W) {
   const auto volume = static_cast<float>(grid_.cell_m * grid_.cell_m * grid_.cell_m);
   const float air_kg = kAir_kg_m3 * volume;
-  const auto push = [&](int axis, std::size_t face) {
+  const auto apply = [&](int axis, std::size_t face) {
     const std::size_t below = face - static_cast<std::size_t>(grid_.lattice.stride(axis));
     const float dust_kg = 0.5f * (dust_kg_[below] + dust_kg_[face]);
-    const float thrown_kg = 0.5f * (thrown_kg_[below] + thrown_kg_[face]);
-    const Field& thrown_Ns = of(thrown_Ns_, axis);
-    const float momentum = 0.5f * (thrown_Ns[below] + thrown_Ns[face]);
+    const float emitted_kg = 0.5f * (emitted_kg_[below] + emitted_kg_[face]);
+    const Field& emitted_Ns = of(emitted_Ns_, axis);
+    const float momentum = 0.5f * (emitted_Ns[below] + emitted_Ns[face]);
     float& u = of(velocity_, axis)[face];
-    u = (air_kg * u + momentum) / (air_kg + thrown_kg);
+    u = (air_kg * u + momentum) / (air_kg + emitted_kg);
     u += dt_s * gravity_W[axis] * dust_kg / (air_kg + dust_kg);
   };
   for_chunks(3, 1, [&](std::size_t, std::size_t, std::size_t which) {
     const auto axis = static_cast<int>(which);
-    for (const std::size_t cell : loaded_) {
-      push(axis, cell);
+    for (const std::size_t cell : dusty_cells_) {
+      apply(axis, cell);
       const std::size_t above = cell + static_cast<std::size_t>(grid_.lattice.stride(axis));
-      if (dust_kg_[above] == 0) push(axis, above);
+      if (dust_kg_[above] == 0) apply(axis, above);
     }
   });
 }
 
-void Air::couple() {
+void Air::apply_solids() {
   const Lattice& lattice = grid_.lattice;
   const Vec3i& counts = lattice.counts;
   for (int axis = 0; axis < 3; ++axis) {
@@ -218,7 +221,7 @@ void Air::couple() {
       const bool rim =
           (axis == 1 && (j == 1 || j > counts.y())) || (axis == 2 && (k == 1 || k > counts.z()));
       const bool closed = axis == 1 && j == 1 && grid_.on_ground;
-      cover_row(fraction, momentum, below, count, u, a);
+      apply_solids_to_row(fraction, momentum, below, count, u, a);
       if (rim) std::transform(a, a + count, a, [&](float open) { return closed ? 0 : 2 * open; });
       if (closed) std::fill_n(u, count, 0.0f);
       if (axis == 0) {
@@ -232,17 +235,17 @@ void Air::couple() {
 void Air::project() {
   const Lattice& lattice = grid_.lattice;
   const std::ptrdiff_t sy = lattice.stride(1), sz = lattice.stride(2);
-  fastest_.assign(static_cast<std::size_t>(lattice.counts.z()), 0);
+  max_speed_of_layer_.assign(static_cast<std::size_t>(lattice.counts.z()), 0);
   for_cells(lattice, [&](std::size_t at, int count, int, int k) {
     const float *u = &velocity_[0][at], *v = &velocity_[1][at], *w = &velocity_[2][at];
-    float& layer = fastest_[static_cast<std::size_t>(k) - 1];
+    float& layer = max_speed_of_layer_[static_cast<std::size_t>(k) - 1];
     for (const float* row : {u, v, w}) layer = std::max(layer, largest_in(row, count + 1));
     float* inflow = &solver_.inflow()[at];
     for (int i = 0; i < count; ++i) {
       inflow[i] = u[i] - u[i + 1] + (v[i] - v[i + sy]) + (w[i] - w[i + sz]);
     }
   });
-  iterations_ = solver_.solve(kTolerance * *std::ranges::max_element(fastest_));
+  iterations_ = solver_.solve(kOutflowTolerance * *std::ranges::max_element(max_speed_of_layer_));
   for (int axis = 0; axis < 3; ++axis) {
     const std::ptrdiff_t below = -lattice.stride(axis);
     for_faces(lattice, axis, [&](std::size_t at, int count, int, int) {
@@ -252,11 +255,11 @@ void Air::project() {
       for (int i = 0; i < count; ++i) u[i] -= a[i] * (p[i] - p[i + below]);
     });
   }
-  if (grid_.on_ground) slip_on_ground();
+  if (grid_.on_ground) apply_free_slip_at_ground();
 }
 
-/// Below a closed floor, as above it.
-void Air::slip_on_ground() {
+/// Copies the tangential velocities of the lowest layer below the closed floor (free slip).
+void Air::apply_free_slip_at_ground() {
   const Lattice& lattice = grid_.lattice;
   for (const int axis : {0, 2}) {
     Field& u = of(velocity_, axis);

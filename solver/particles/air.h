@@ -1,5 +1,5 @@
-// The air that carries dust: an incompressible flow on a coarse grid of fixed size, placed around
-// the dust and moved by solids, by the dust's weight and by what breaks throw into it.
+// The air that carries dust: an incompressible flow on a coarse grid of a fixed number of cells,
+// placed around the dust and driven by solids, by the weight of the dust and by emitted dust.
 #pragma once
 
 #include <array>
@@ -12,29 +12,29 @@
 
 namespace sunder::solver {
 
-/// A flow advected semi-Lagrangian, of second order. Solids move the air as a penalty on the part
-/// of a face that they cover; beyond the grid its pressure is zero.
+/// An incompressible flow with second-order semi-Lagrangian advection. Solids drive the air by a
+/// penalty on the fraction of a face that they cover; the pressure beyond the grid is zero.
 class Air : public Flow {
  public:
-  /// Counts are multiples of 8.
+  /// Makes a grid of `counts` cells per axis, multiples of 8.
   explicit Air(const Vec3i& counts);
 
-  /// Moves the grid, or makes its cells larger or smaller, so that it holds `dust` with room to
-  /// spare; the flow stays where it is. True if it moved.
+  /// Moves the grid or changes its cell size so that it holds `dust` with a margin, and resamples
+  /// the flow. Returns true if the grid changed.
   bool place(const Box& dust, double ground_m);
-  /// Goes on with the flow of another, on a grid of its own; both are placed.
-  void take_over(const Air& other) { other.resample(grid_, velocity_); }
+  /// Copies the flow of `other`, resampled to this grid. Both grids must be placed.
+  void copy_flow_from(const Air& other) { other.resample(grid_, velocity_); }
 
-  /// Forgets the loads of the last step.
+  /// Clears the dust mass and the emitted momentum of the last step.
   void clear_loads();
-  /// What the dust in a cell weighs, in kg.
+  /// Adds dust of this mass to a cell.
   void add_dust(std::size_t cell, float mass_kg);
-  /// Mass that enters the air with a momentum of its own, where there is dust.
+  /// Adds the momentum of newly emitted dust to a cell that add_dust() was called for.
   void add_momentum(std::size_t cell, float mass_kg, const Vec3f& velocity_W);
 
   void advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles);
 
-  /// Solid part of a cell.
+  /// Returns the solid fraction of a cell; above 1 where obstacles overlap.
   float solid(const Vec3i& cell) const {
     return solids_.fraction[grid_.lattice.index(cell.x(), cell.y(), cell.z())];
   }
@@ -43,20 +43,21 @@ class Air : public Flow {
 
  private:
   void advect(float dt_s);
-  void load(float dt_s, const Vec3f& gravity_W);
-  void couple();
+  void apply_dust_loads(float dt_s, const Vec3f& gravity_W);
+  void apply_solids();
   void project();
-  void slip_on_ground();
+  void apply_free_slip_at_ground();
 
   bool placed_ = false;
   std::array<Field, 3> advected_;
   Solids solids_;
-  std::vector<std::size_t> loaded_;  ///< Cells with dust.
+  std::vector<std::size_t> dusty_cells_;  ///< Indices of the cells with dust.
   Field dust_kg_;
-  Field thrown_kg_;
-  std::array<Field, 3> thrown_Ns_;
+  Field emitted_kg_;
+  std::array<Field, 3> emitted_Ns_;
   PressureSolver solver_;
-  std::vector<float> fastest_;  ///< Of a layer's flow, before it is projected.
+  /// Greatest speed in each layer of cells, before the projection.
+  std::vector<float> max_speed_of_layer_;
   int iterations_ = 0;
 };
 

@@ -6,17 +6,19 @@
 namespace sunder::solver {
 namespace {
 
-// With which chips leave their face: most slowly, one in ten six times as fast, none at over 14
-// times; on a face that does not part, and a share of how fast it does.
-constexpr double kSpall_m_s = 0.25, kSpallOfParting = 0.04, kFewest = 0.07;
-// A crack that stays shut has room for little; one that opens at kOpen_m_s gives all there is.
-constexpr double kShut = 0.05, kOpen_m_s = 4;
-constexpr double kSpin_s = 15;
-// Of the motion of its solid: air holds dust back.
-constexpr double kDustFollows = 0.4;
-constexpr double kPuff_m = 0.09;  // least radius of dust; at most twice that
+// Spall speed of a face that does not open, in m/s, and the share of the opening speed added to it.
+constexpr double kSpall_m_s = 0.25, kSpallPerOpeningSpeed = 0.04;
+// Chips leave at the spall speed / (u + this), u uniform in [0, 1): one in ten at least about six
+// times as fast as the spall speed, none more than about 14 times.
+constexpr double kSpallSpeedOffset = 0.07;
+// Share of particles that a closed crack emits, and opening speed, in m/s, for all particles.
+constexpr double kClosedCrackShare = 0.05, kFullEmissionSpeed_m_s = 4;
+constexpr double kMaxChipSpin_s = 15;  // greatest angular speed of a new chip, in rad/s
+// Share of the velocity of its solid that new dust has: air drag slows it down.
+constexpr double kDustVelocityShare = 0.4;
+constexpr double kMinPuffRadius_m = 0.09;  // least radius of a new puff; the greatest is twice that
 
-double area(const Emission& face) {
+double area(const ExposedPolygon& face) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t c = 2; c < face.corners_W.size(); ++c) {
     const Vec3& apex = face.corners_W[0];
@@ -25,13 +27,14 @@ double area(const Emission& face) {
   return 0.5 * sum.norm();
 }
 
-/// Debris and dust together, of a square metre.
-double density_m2(const Emission& face) {
-  return face.crumbling.particles_per_m2 * std::min(1.0, kShut + face.parting_m_s / kOpen_m_s);
+/// Returns the number of particles, debris and dust together, that a square metre emits.
+double emission_density_m2(const ExposedPolygon& face) {
+  return face.crumbling.particles_per_m2 *
+         std::min(1.0, kClosedCrackShare + face.opening_speed_m_s / kFullEmissionSpeed_m_s);
 }
 
-/// Uniform on the polygon: a triangle of its fan by area, then a point of it.
-Vec3 point_on(const Emission& face, double face_area_m2, Random& random) {
+/// Returns a uniform random point of the polygon: a triangle of its fan by area, a point of that.
+Vec3 point_on(const ExposedPolygon& face, double face_area_m2, Random& random) {
   double left_m2 = random.uniform() * face_area_m2;
   const Vec3& apex = face.corners_W[0];
   std::size_t c = 2;
@@ -48,16 +51,16 @@ Vec3 point_on(const Emission& face, double face_area_m2, Random& random) {
   return apex + u * (face.corners_W[c - 1] - apex) + v * (face.corners_W[c] - apex);
 }
 
-/// A power law between two sizes: N(> r) ~ r^-2.
+/// Returns a random size between two limits by a power law: N(> r) ~ r^-2.
 double power_law(double smallest, double largest, Random& random) {
   const double ratio = smallest / largest;
   return smallest / std::sqrt(1 - random.uniform() * (1 - ratio * ratio));
 }
 
-/// Uniform over all rotations.
-Quatf any_rotation(Random& random) {
+/// Returns a random rotation, uniform over all rotations.
+Quatf random_rotation(Random& random) {
   for (;;) {
-    Eigen::Vector4d q;  // drawn in this order, whoever compiles it
+    Eigen::Vector4d q;  // drawn in a fixed order, independent of the compiler
     for (int i = 3; i >= 0; --i) q[i] = random.uniform(-1, 1);
     const double square = q.squaredNorm();
     if (square > 1e-4 && square <= 1) {
@@ -66,64 +69,72 @@ Quatf any_rotation(Random& random) {
   }
 }
 
-std::uint8_t any_variant(Random& random) {
+std::uint8_t random_variant(Random& random) {
   return static_cast<std::uint8_t>(random.below(kDebrisVariants));
 }
 
-double spall_m_s(const Emission& face) { return kSpall_m_s + kSpallOfParting * face.parting_m_s; }
+double spall_m_s(const ExposedPolygon& face) {
+  return kSpall_m_s + kSpallPerOpeningSpeed * face.opening_speed_m_s;
+}
 
-DebrisBirth chip_from(const Emission& face, double area_m2, Random& random) {
-  const Crumbling& crumbling = face.crumbling;
+DebrisBirth chip_from(const ExposedPolygon& face, double area_m2, Random& random) {
+  const DebrisEmission& crumbling = face.crumbling;
   const Vec3 point = point_on(face, area_m2, random);
-  const double speed = spall_m_s(face) / (random.uniform() + kFewest);
+  const double speed = spall_m_s(face) / (random.uniform() + kSpallSpeedOffset);
   const Vec3 velocity = face.motion(point) + speed * (face.normal_W + random.direction());
   const double radius = power_law(crumbling.debris_smallest_m, crumbling.debris_largest_m, random);
   const Vec3 center = point + radius * face.normal_W;
-  const Vec3 spin = kSpin_s * random.uniform() * random.direction();
-  return {center.cast<float>(), velocity.cast<float>(),     spin.cast<float>(),
-          any_rotation(random), static_cast<float>(radius), any_variant(random),
+  const Vec3 spin = kMaxChipSpin_s * random.uniform() * random.direction();
+  return {center.cast<float>(),
+          velocity.cast<float>(),
+          spin.cast<float>(),
+          random_rotation(random),
+          static_cast<float>(radius),
+          random_variant(random),
           face.material};
 }
 
-DustBirth puff_from(const Emission& face, double area_m2, Random& random) {
-  const Crumbling& crumbling = face.crumbling;
+DustBirth puff_from(const ExposedPolygon& face, double area_m2, Random& random) {
+  const DebrisEmission& crumbling = face.crumbling;
   const Vec3 point = point_on(face, area_m2, random);
-  const Vec3 velocity =
-      kDustFollows * face.motion(point) + spall_m_s(face) * (face.normal_W + random.direction());
-  // All the dust of the face, shared out.
+  const Vec3 velocity = kDustVelocityShare * face.motion(point) +
+                        spall_m_s(face) * (face.normal_W + random.direction());
+  // The dust mass of a square metre, divided by its number of puffs.
   const double mass_kg =
       crumbling.dust_kg_m2 / (crumbling.particles_per_m2 * (1 - crumbling.debris_ratio));
   const double settling = crumbling.dust_settling_m_s * random.uniform(0.5, 1.5);
   return {point.cast<float>(),
           velocity.cast<float>(),
-          any_rotation(random),
+          random_rotation(random),
           static_cast<float>(mass_kg),
           static_cast<float>(settling),
-          static_cast<float>(kPuff_m * random.uniform(1, 2)),
+          static_cast<float>(kMinPuffRadius_m * random.uniform(1, 2)),
           face.material};
 }
 
 }  // namespace
 
-Shares shares(std::span<const Emission> faces, const Debris& debris, const Dust& dust) {
+CapacityShares capacity_shares(std::span<const ExposedPolygon> faces, const Debris& debris,
+                               const Dust& dust) {
   double expected_debris = 0, expected_dust = 0;
-  for (const Emission& face : faces) {
-    const double count = density_m2(face) * area(face);
+  for (const ExposedPolygon& face : faces) {
+    const double count = emission_density_m2(face) * area(face);
     expected_debris += count * face.crumbling.debris_ratio;
     expected_dust += count * (1 - face.crumbling.debris_ratio);
   }
-  const auto share = [](std::uint32_t room, double expected) {
-    return expected > room ? room / expected : 1;
+  const auto share = [](std::uint32_t capacity, double expected) {
+    return expected > capacity ? capacity / expected : 1;
   };
   return {share(debris.room(), expected_debris), share(dust.room(), expected_dust)};
 }
 
-void crumble(const Emission& face, const Shares& shares, Random& random, Debris& debris,
-             Dust& dust) {
-  const Crumbling& crumbling = face.crumbling;
+void crumble(const ExposedPolygon& face, const CapacityShares& shares, Random& random,
+             Debris& debris, Dust& dust) {
+  const DebrisEmission& crumbling = face.crumbling;
   if (!(crumbling.particles_per_m2 > 0)) return;
   const double area_m2 = area(face);
-  const auto count = static_cast<std::uint64_t>(density_m2(face) * area_m2 + random.uniform());
+  const auto count =
+      static_cast<std::uint64_t>(emission_density_m2(face) * area_m2 + random.uniform());
   for (std::uint64_t i = 0; i < count; ++i) {
     if (random.uniform() < crumbling.debris_ratio) {
       if (random.uniform() < shares.debris) {
@@ -141,10 +152,10 @@ void crumble(const Emission& face, const Shares& shares, Random& random, Debris&
   }
 }
 
-void add_chip(const Chip& chip, Random& random, Debris& debris) {
+void add_chip(const DebrisPiece& chip, Random& random, Debris& debris) {
   debris.add({chip.center_W.cast<float>(), chip.velocity_W.cast<float>(),
-              chip.angular_velocity_W.cast<float>(), any_rotation(random),
-              static_cast<float>(chip.radius_m), any_variant(random), chip.material});
+              chip.angular_velocity_W.cast<float>(), random_rotation(random),
+              static_cast<float>(chip.radius_m), random_variant(random), chip.material});
 }
 
 }  // namespace sunder::solver

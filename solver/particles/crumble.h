@@ -1,4 +1,4 @@
-// Fresh cracks crumble: debris and dust, uniformly on each face that a break laid bare.
+// ExposedPolygon of debris and dust, uniformly on each face that a break has exposed.
 #pragma once
 
 #include <vector>
@@ -10,21 +10,23 @@
 
 namespace sunder::solver {
 
-/// What debris and dust there is room for, of what faces would give: 0 to 1.
-struct Shares {
+/// Shares of the expected debris and dust of some faces that fit within the limits, 0 to 1.
+struct CapacityShares {
   double debris = 1;
   double dust = 1;
 };
-Shares shares(std::span<const Emission> faces, const Debris& debris, const Dust& dust);
+CapacityShares capacity_shares(std::span<const ExposedPolygon> faces, const Debris& debris,
+                               const Dust& dust);
 
-/// Adds what comes off a face (paper section 5: "uniformly on those faces with a user specified
-/// sampling density and ratio"). The count is the density times the area, rounded up or down at
-/// random, so that many small faces give as much as a large one. Where room is short each face
-/// gives its share; the rest is ignored and counted so, and the dust that remains is heavier.
-void crumble(const Emission& face, const Shares& shares, Random& random, Debris& debris,
-             Dust& dust);
+/// Adds the debris and dust of one face (paper section 5: "uniformly on those faces with a user
+/// specified sampling density and ratio"). The number of particles is the density times the area,
+/// rounded up or down at random, so that many small faces give as many as a large one. Each
+/// particle is kept with a probability of its share in `shares`; the others are counted as ignored.
+/// Puffs of dust that are kept get heavier, so that the total mass stays.
+void crumble(const ExposedPolygon& face, const CapacityShares& shares, Random& random,
+             Debris& debris, Dust& dust);
 
-/// A chip that was a body turns up as it was, in a random shape.
-void add_chip(const Chip& chip, Random& random, Debris& debris);
+/// Adds a chip in place of a body, with its motion and size, and a random shape and rotation.
+void add_chip(const DebrisPiece& chip, Random& random, Debris& debris);
 
 }  // namespace sunder::solver

@@ -1,4 +1,4 @@
-// Debris: chips that fall, bounce, come to rest and fade, simulated as spheres; for the eye only.
+// Debris: visual chips that fall, bounce, come to rest and fade, as spheres that act on no body.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace sunder::solver {
 
-/// A chip as it comes into the world.
+/// Initial state of a chip. W: world; D: frame of the chip.
 struct DebrisBirth {
   Vec3f position_W = Vec3f::Zero();
   Vec3f velocity_W = Vec3f::Zero();
@@ -21,79 +21,81 @@ struct DebrisBirth {
   MaterialIndex material;
 };
 
-/// All debris. Resting chips sleep and cost nothing until their support goes, moves, or something
-/// else runs into them. Where many lie, small ones that have lain long fade.
+/// Simulates all debris. Resting chips sleep at no cost until their support is removed or moves, or
+/// a moving obstacle hits them. Near the limit, small chips that have slept long fade out.
 class Debris {
  public:
   Debris(std::uint32_t limit, const Vec3& gravity_W);
 
-  /// Ignored, and counted so, at the limit.
+  /// Adds a chip; at the limit the chip is ignored and counted in ledger().ignored.
   void add(const DebrisBirth& birth);
   void ignore() { ++ledger_.ignored; }
-  /// How many more fit.
+  /// Returns the number of chips that can still be added.
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DebrisView view() const;
-  ParticleLedger ledger() const;
+  ParticleCounts ledger() const;
 
  private:
   enum class State : std::uint8_t { kAwake, kAsleep, kFading };
-  /// What a step made of one chip.
-  struct Moved {
+  /// Result of a step for one chip.
+  struct StepResult {
     bool touched = false;
-    bool lies = false;          ///< On what does not move, for all a chip can tell.
-    std::uint32_t support = 0;  ///< Index of a body, or kGround.
+    bool on_still_surface = false;  ///< Touches a surface slower than ObstacleGrid::kRestSpeed_m_s.
+    std::uint32_t support = 0;      ///< Index of the body that was touched, or kGround.
   };
-  /// A body that sleepers rest on.
+  /// A body that sleeping chips rest on.
   struct Support {
     std::uint32_t key = 0;
-    std::uint32_t edits = 0;  ///< When the first of them fell asleep,
-    Pose X_WB;                ///< and where it was.
+    std::uint32_t edits = 0;  ///< ObstacleBody::edits when the first chip fell asleep on the body.
+    Pose X_WB;                ///< Pose of the body when the first chip fell asleep on it.
   };
 
   void sort();
   void wake_unsupported(const Obstacles& obstacles);
-  void wake_touched(double dt_s, const Obstacles& obstacles);
+  void wake_hit(double dt_s, const Obstacles& obstacles);
   void wake(std::uint32_t chip);
   Box reach_of_awake(double dt_s);
   void move_awake(double dt_s, const Obstacles& obstacles);
-  void fetch(std::uint32_t chip) const;
-  void move(std::span<const std::uint32_t> chips, std::span<Moved> moved, double dt_s,
+  void prefetch_chip(std::uint32_t chip) const;
+  void move(std::span<const std::uint32_t> chips, std::span<StepResult> results, double dt_s,
             double ground_m, ObstacleGrid::Near& near);
-  bool goes_on(std::uint32_t chip, SphereWay& way, std::optional<ObstacleTouch> touch, double dt_s,
-               double ground_m, Moved& moved);
-  void spin(std::span<const std::uint32_t> chips, std::span<const Moved> moved, float dt_s);
+  bool advance_to_contact(std::uint32_t chip, SpherePath& path, std::optional<SphereContact> touch,
+                          double dt_s, double ground_m, StepResult& result);
+  void integrate_rotations(std::span<const std::uint32_t> chips,
+                           std::span<const StepResult> results, float dt_s);
   void put_to_sleep(double dt_s, const Obstacles& obstacles);
   void fade(float dt_s);
   void remove(std::uint32_t chip);
-  void list();
+  void rebuild_lists();
   void add_support(const ObstacleBody& body);
 
   std::uint32_t limit_;
   Vec3 gravity_W_;
-  ParticleLedger ledger_;
-  std::uint64_t next_rest_ = 0;
+  ParticleCounts ledger_;
+  std::uint64_t next_sleep_order_ = 0;
 
   std::vector<Vec3f> position_W_, velocity_W_, angular_velocity_W_;
   std::vector<Quatf> rotation_WD_;
   std::vector<float> radius_m_, drawn_radius_m_;
-  std::vector<float> still_s_;  ///< How long it has hardly moved.
+  std::vector<float> slow_s_;  ///< Time below the sleep speed.
   std::vector<std::uint8_t> variant_;
   std::vector<MaterialIndex> material_;
   std::vector<State> state_;
-  std::vector<std::uint32_t> support_;  ///< Key of what a sleeper rests on.
-  std::vector<std::uint64_t> rest_;     ///< A sleeper's place in the order of falling asleep.
+  std::vector<std::uint32_t> support_;  ///< Key of the body that a sleeping chip rests on.
+  /// Position of a sleeping chip in the order of sleeping.
+  std::vector<std::uint64_t> sleep_order_;
 
-  /// All chips, near each other if near in the world, as far as was so when they were sorted.
+  /// All chips in the order of the last sort(): neighbours in space are close in memory.
   std::vector<std::uint32_t> order_;
-  std::uint32_t moves_ = 0;                             ///< Since they were sorted.
-  std::vector<std::uint32_t> awake_, asleep_, fading_;  ///< In that order; remade when stale.
-  bool listed_ = true;
+  std::uint32_t steps_ = 0;                             ///< Steps with awake chips.
+  std::vector<std::uint32_t> awake_, asleep_, fading_;  ///< Chips by state, in the order of order_.
+  bool lists_valid_ = true;  ///< False if the lists by state must be rebuilt.
   Box asleep_box_;
-  std::vector<Support> supports_;  ///< Ascending by key.
-  ObstacleGrid grid_, movers_;
-  std::vector<Moved> moved_;  ///< Of awake_.
-  std::vector<Box> reaches_;  ///< A chunk's.
+  std::vector<Support> supports_;  ///< In ascending order of keys.
+  ObstacleGrid grid_, moving_grid_;
+  std::vector<StepResult> results_;  ///< Results for the chips of awake_.
+  std::vector<Box> chunk_boxes_;     ///< Box of each chunk of awake chips.
 };
 
 }  // namespace sunder::solver

@@ -15,16 +15,16 @@ class DebrisAndDust final : public Particles {
         debris_(options.limits.debris, options.gravity_W),
         dust_(options.limits.dust, options.gravity_W, options.air_cells) {}
 
-  void emit(std::span<const Emission> faces) override {
-    const Shares shares = solver::shares(faces, debris_, dust_);
-    for (const Emission& face : faces) {
+  void emit(std::span<const ExposedPolygon> faces) override {
+    const CapacityShares shares = capacity_shares(faces, debris_, dust_);
+    for (const ExposedPolygon& face : faces) {
       Random random(seed_, next_stream_++);
       crumble(face, shares, random, debris_, dust_);
     }
   }
 
-  void emit(std::span<const Chip> chips) override {
-    for (const Chip& chip : chips) {
+  void emit(std::span<const DebrisPiece> chips) override {
+    for (const DebrisPiece& chip : chips) {
       Random random(seed_, next_stream_++);
       add_chip(chip, random, debris_);
     }
@@ -51,7 +51,8 @@ class DebrisAndDust final : public Particles {
 
  private:
   std::uint64_t seed_;
-  std::uint64_t next_stream_ = 0;  ///< One a face or chip: what one draws changes no other.
+  /// Next random stream; each face and chip has its own, so that their draws are independent.
+  std::uint64_t next_stream_ = 0;
   Debris debris_;
   Dust dust_;
 };

@@ -1,4 +1,4 @@
-// Read first: advance(), the list of a step's stages, then move().
+// Read first: advance(), which lists the stages of a step, then move().
 #include "solver/particles/dust.h"
 
 #include <algorithm>
@@ -6,27 +6,29 @@
 #include <numeric>
 
 #include "engine/base/parallel.h"
-#include "solver/base/place_order.h"
+#include "solver/base/morton_order.h"
 #include "solver/particles/rotate.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr std::size_t kPuffs = 256;
-constexpr float kThrown_s = 0.15f;         // in which thrown dust comes to move with the air
-constexpr float kThrownTurbulence = 0.2f;  // of its speed relative to the air
-constexpr float kSpread_m2_s = 0.004f;     // growth of a puff's squared radius in still air
-constexpr float kMostOpacity = 0.45f;
-constexpr float kLeastOpacity = 0.008f;  // thinner dust is gone
-constexpr float kAppear_s = 0.1f;
-constexpr float kSettle_s = 2;          // until dust that lies has faded
-constexpr float kSolid = 0.9f;          // part of a cell from which dust in it lies
-constexpr float kCrowded = 4;           // times faster the oldest fade when room is short
-constexpr std::size_t kCellsAPuff = 8;  // of air: finer is not worth its cost
-constexpr std::size_t kStrays = 32;     // one puff in so many, on each side, may fly out of the air
-constexpr std::size_t kAhead = 8;       // puffs, that memory is asked for
-constexpr std::size_t kSpeakers = 4096;
-constexpr std::uint32_t kPuffRoom = 16;  // one part in so many is kept free for new dust
+constexpr std::size_t kPuffsPerChunk = 256;
+constexpr float kSlipDecay_s = 0.15f;        // relaxation time of emitted dust to the air velocity
+constexpr float kEmissionTurbulence = 0.2f;  // turbulent speed of new dust / its emission speed
+constexpr float kSpread_m2_s = 0.004f;       // growth of a puff's squared radius in still air
+constexpr float kMaxOpacity = 0.45f;
+constexpr float kMinOpacity = 0.008f;  // puffs of less are removed
+constexpr float kFadeIn_s = 0.1f;
+constexpr float kFadeOut_s = 2;  // fade time of settled dust
+// Solid fraction of a cell from which its dust is settled.
+constexpr float kSettlingSolidFraction = 0.9f;
+constexpr float kEarlyFadeFactor = 4;  // speed-up of the fading of the oldest puffs near the limit
+constexpr std::size_t kCellsPerPuff = 8;  // air cells wanted per puff; more are not worth the cost
+// 1 / this of the puffs, on each side, may leave the air
+constexpr std::size_t kOutlierDivisor = 32;
+constexpr std::size_t kPrefetchDistance = 8;  // puffs between prefetching and reading
+constexpr std::size_t kCloudSamples = 4096;   // puffs sampled for the box of the cloud, about
+constexpr std::uint32_t kPuffReserve = 16;    // 1 / this of the limit is kept free for new dust
 
 Vec3f axis_of(const Quatf& rotation) { return rotation * Vec3f::UnitZ(); }
 
@@ -49,7 +51,7 @@ void Dust::add(const DustBirth& birth) {
   rotation_WD_.push_back(birth.rotation_WD);
   mass_kg_.push_back(birth.mass_kg);
   settling_m_s_.push_back(birth.settling_m_s);
-  turbulence_m_s_.push_back(kThrownTurbulence * birth.velocity_W.norm());
+  turbulence_m_s_.push_back(kEmissionTurbulence * birth.velocity_W.norm());
   first_radius_m_.push_back(birth.radius_m);
   radius_m_.push_back(birth.radius_m);
   opacity_.push_back(0);
@@ -61,37 +63,37 @@ void Dust::add(const DustBirth& birth) {
 void Dust::advance(double dt_s, const Obstacles& obstacles) {
   if (position_W_.empty()) {
     flow_.reset();
-    worth_.setZero();
+    wanted_cells_.setZero();
     return;
   }
   place_air(obstacles.ground_m);
   sort_into_cells();
   load_air();
   flow_->air.advance(dt_s, gravity_W_, obstacles);
-  for_chunks(position_W_.size(), kPuffs, [&](std::size_t begin, std::size_t end, std::size_t) {
-    Around around;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i + kAhead < end) fetch(order_[i + kAhead]);
-      if (i == begin || cell_[order_[i]] != around.cell) look_around(order_[i], around);
-      move(order_[i], around, static_cast<float>(dt_s), static_cast<float>(obstacles.ground_m));
-    }
-  });
+  for_chunks(
+      position_W_.size(), kPuffsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+        Surroundings around;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (i + kPrefetchDistance < end) prefetch_puff(order_[i + kPrefetchDistance]);
+          if (i == begin || cell_[order_[i]] != around.cell) sample_surroundings(order_[i], around);
+          move(order_[i], around, static_cast<float>(dt_s), static_cast<float>(obstacles.ground_m));
+        }
+      });
   remove_settled();
 }
 
-/// Where the dust is, but for the few that have flown farthest: the air is there for the cloud.
-/// Of many puffs some speak for all.
-Box Dust::cloud() {
+/// Returns a box around the dust without the outliers on each side, from a sample of the puffs.
+Box Dust::cloud_box() {
   Box box;
-  const std::size_t every = 1 + position_W_.size() / kSpeakers;
-  const std::size_t strays = (position_W_.size() + every - 1) / every / kStrays;
+  const std::size_t every = 1 + position_W_.size() / kCloudSamples;
+  const std::size_t outliers = (position_W_.size() + every - 1) / every / kOutlierDivisor;
   for (int axis = 0; axis < 3; ++axis) {
     sorted_m_.clear();
     for (std::size_t p = 0; p < position_W_.size(); p += every) {
       sorted_m_.push_back(position_W_[p][axis]);
     }
-    const auto low = sorted_m_.begin() + static_cast<std::ptrdiff_t>(strays);
-    const auto high = sorted_m_.end() - 1 - static_cast<std::ptrdiff_t>(strays);
+    const auto low = sorted_m_.begin() + static_cast<std::ptrdiff_t>(outliers);
+    const auto high = sorted_m_.end() - 1 - static_cast<std::ptrdiff_t>(outliers);
     std::nth_element(sorted_m_.begin(), low, sorted_m_.end());
     if (low < high) std::nth_element(low + 1, high, sorted_m_.end());
     box.min[axis] = double{*low};
@@ -100,31 +102,32 @@ Box Dust::cloud() {
   return box;
 }
 
-/// Fifths of the most along each axis, as few as so many puffs are worth; fewer than there are
-/// only if by far.
+/// Returns the least cell counts, in fifths of the greatest per axis, that suffice for this number
+/// of puffs. The counts shrink only if the smaller ones suffice by a margin of a half (hysteresis).
 Vec3i Dust::cells_for(std::size_t puffs) const {
   constexpr int kSteps = 5, kUnit = 8;
   for (int step = 2; step < kSteps; ++step) {
     const Vec3i part = (step * air_cells_ + Vec3i::Constant(kSteps * kUnit - 1)) / (kSteps * kUnit);
     const Vec3i cells = kUnit * part;
-    const bool fewer = cells.prod() < worth_.prod();
-    const std::size_t wanted = kCellsAPuff * puffs * (fewer ? 3 : 2) / 2;
+    const bool fewer = cells.prod() < wanted_cells_.prod();
+    const std::size_t wanted = kCellsPerPuff * puffs * (fewer ? 3 : 2) / 2;
     if (static_cast<std::size_t>(cells.prod()) >= wanted) return cells;
   }
   return air_cells_;
 }
 
-/// Half as many along axes where the cloud fits into half: the cells stay as small. As often as not
-/// a cloud is flat or long.
-Vec3i Dust::without_spare(Vec3i cells, const Vec3& extent) const {
-  constexpr double kClearly = 0.75;  // so much less before there are fewer than now
+/// Returns `cells` halved along the axes on which the cloud fits into half of them, at the same
+/// cell size; about half of all clouds are flat or long.
+Vec3i Dust::halve_where_possible(Vec3i cells, const Vec3& extent) const {
+  // Hysteresis: share of the halved extent into which the cloud must fit before cells are halved.
+  constexpr double kHalvingMargin = 0.75;
   const Vec3i now = flow_ ? flow_->air.grid().lattice.counts : Vec3i(Vec3i::Zero());
   const double cell_m = cell_m_for(extent, cells);
-  const Vec3i least(16, 8, 8);  // what the pressure's coarser grids need
+  const Vec3i least(16, 8, 8);  // required by the coarser grids of the pressure solver
   for (int axis = 0; axis < 3; ++axis) {
     while (cells[axis] % 16 == 0 && cells[axis] / 2 >= least[axis]) {
       const int half = cells[axis] / 2;
-      const double part = now[axis] > 0 && now[axis] <= half ? 1 : kClearly;
+      const double part = now[axis] > 0 && now[axis] <= half ? 1 : kHalvingMargin;
       if (!grid_fits(extent[axis], half, part * cell_m)) break;
       cells[axis] = half;
     }
@@ -133,13 +136,13 @@ Vec3i Dust::without_spare(Vec3i cells, const Vec3& extent) const {
 }
 
 void Dust::place_air(double ground_m) {
-  const Box box = cloud();
-  worth_ = cells_for(position_W_.size());
-  const Vec3i cells = without_spare(worth_, box.extent());
+  const Box box = cloud_box();
+  wanted_cells_ = cells_for(position_W_.size());
+  const Vec3i cells = halve_where_possible(wanted_cells_, box.extent());
   if (flow_ && flow_->air.grid().lattice.counts != cells) {
     Flow next(cells);
     next.air.place(box, ground_m);
-    next.air.take_over(flow_->air);
+    next.air.copy_flow_from(flow_->air);
     flow_ = std::move(next);
     return;
   }
@@ -150,7 +153,7 @@ void Dust::place_air(double ground_m) {
 void Dust::sort_into_cells() {
   const Air& air = flow_->air;
   cell_.resize(position_W_.size());
-  for_chunks(cell_.size(), kPuffs, [&](std::size_t begin, std::size_t end, std::size_t) {
+  for_chunks(cell_.size(), kPuffsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t puff = begin; puff < end; ++puff) {
       cell_[puff] = kOutside;
       if (!air.contains(position_W_[puff])) continue;
@@ -163,7 +166,7 @@ void Dust::sort_into_cells() {
   sort_by_key(cell_, order_);
 }
 
-/// Tells the air what it carries, and gathers the vortices: two things, for a thread each.
+/// Adds the dust of each cell to the air and to the swirl, on a thread each.
 void Dust::load_air() {
   const auto end = std::ranges::find(order_, kOutside, [&](std::uint32_t p) { return cell_[p]; });
   const std::span inside(order_.begin(), end);
@@ -187,14 +190,16 @@ void Dust::load_air() {
   });
 }
 
-/// Asks memory for what move() will read.
-void Dust::fetch(std::size_t puff) const {
-  const auto ask = [puff](const auto&... arrays) { (__builtin_prefetch(&arrays[puff]), ...); };
-  ask(position_W_, slip_W_, rotation_WD_, settling_m_s_, turbulence_m_s_, first_radius_m_,
-      radius_m_, opacity_, age_s_, settled_s_);
+/// Prefetches the data of a puff that move() reads.
+void Dust::prefetch_puff(std::size_t puff) const {
+  const auto prefetch_each = [puff](const auto&... arrays) {
+    (__builtin_prefetch(&arrays[puff]), ...);
+  };
+  prefetch_each(position_W_, slip_W_, rotation_WD_, settling_m_s_, turbulence_m_s_, first_radius_m_,
+                radius_m_, opacity_, age_s_, settled_s_);
 }
 
-void Dust::look_around(std::size_t puff, Around& around) const {
+void Dust::sample_surroundings(std::size_t puff, Surroundings& around) const {
   around.cell = cell_[puff];
   if (around.cell == kOutside) {
     around.gradient = {};
@@ -208,8 +213,8 @@ void Dust::look_around(std::size_t puff, Around& around) const {
   flow_->swirl.find(around.cell, around.swirl);
 }
 
-/// With the air, the swirl, what is left of the throw, and down.
-void Dust::move(std::size_t puff, const Around& around, float dt_s, float ground_m) {
+/// Moves a puff with the air, the swirl, its remaining velocity relative to the air, and settling.
+void Dust::move(std::size_t puff, const Surroundings& around, float dt_s, float ground_m) {
   const Air& air = flow_->air;
   const auto cell_m = static_cast<float>(air.grid().cell_m);
   Vec3f& position = position_W_[puff];
@@ -223,10 +228,10 @@ void Dust::move(std::size_t puff, const Around& around, float dt_s, float ground
 
   Vec3f drift = settling_m_s_[puff] * down_W_;
   if (around.cell != kOutside) drift += around.swirl.velocity(air.to_cells(position));
-  slip_W_[puff] /= 1 + dt_s / kThrown_s;
-  const Vec3f own_way = slip_W_[puff] + (1 - around.solid) * drift;
-  const Vec3f middle = position + 0.5f * dt_s * (air.velocity(position) + own_way);
-  position += dt_s * (air.velocity(middle) + own_way);
+  slip_W_[puff] /= 1 + dt_s / kSlipDecay_s;
+  const Vec3f own_velocity = slip_W_[puff] + (1 - around.solid) * drift;
+  const Vec3f middle = position + 0.5f * dt_s * (air.velocity(position) + own_velocity);
+  position += dt_s * (air.velocity(middle) + own_velocity);
 
   float& radius = radius_m_[puff];
   const float mixing = kSpread_m2_s + 0.1f * cell_m * turbulence;
@@ -237,22 +242,23 @@ void Dust::move(std::size_t puff, const Around& around, float dt_s, float ground
 
 void Dust::settle(std::size_t puff, float dt_s, float solid, float ground_m) {
   Vec3f& position = position_W_[puff];
-  const bool lies = position.y() <= ground_m || solid > kSolid;
+  const bool lies = position.y() <= ground_m || solid > kSettlingSolidFraction;
   position.y() = std::max(position.y(), ground_m);
-  const std::size_t kept = limit_ - limit_ / kPuffRoom;
-  const bool crowded = position_W_.size() > kept && puff < position_W_.size() - kept;
+  const std::size_t kept = limit_ - limit_ / kPuffReserve;
+  const bool near_limit = position_W_.size() > kept && puff < position_W_.size() - kept;
   float& settled = settled_s_[puff];
-  if (lies || crowded) settled += dt_s * (crowded ? kCrowded : 1);
+  if (lies || near_limit) settled += dt_s * (near_limit ? kEarlyFadeFactor : 1);
   const float thin = first_radius_m_[puff] / radius_m_[puff];
-  const float appear = std::min(1.0f, age_s_[puff] / kAppear_s);
-  const float stay = std::max(0.0f, 1 - settled / kSettle_s);
-  opacity_[puff] = kMostOpacity * appear * stay * thin * std::sqrt(thin);  // it clots
+  const float appear = std::min(1.0f, age_s_[puff] / kFadeIn_s);
+  const float stay = std::max(0.0f, 1 - settled / kFadeOut_s);
+  // The power 3/2 in place of the 2 of uniform thinning, because dust forms clots.
+  opacity_[puff] = kMaxOpacity * appear * stay * thin * std::sqrt(thin);
 }
 
-/// Keeps the order of birth.
+/// Removes puffs that have faded; the others keep their order.
 void Dust::remove_settled() {
   const auto gone = [&](std::size_t puff) {
-    return age_s_[puff] >= kAppear_s && opacity_[puff] < kLeastOpacity;
+    return age_s_[puff] >= kFadeIn_s && opacity_[puff] < kMinOpacity;
   };
   std::size_t kept = 0;
   while (kept < position_W_.size() && !gone(kept)) ++kept;
@@ -273,8 +279,8 @@ DustView Dust::view() const {
   return {position_W_, rotation_WD_, radius_m_, opacity_, age_s_, material_};
 }
 
-ParticleLedger Dust::ledger() const {
-  ParticleLedger ledger = ledger_;
+ParticleCounts Dust::ledger() const {
+  ParticleCounts ledger = ledger_;
   ledger.alive = ledger.awake = static_cast<std::uint32_t>(position_W_.size());
   return ledger;
 }

@@ -20,7 +20,8 @@ void Flow::resample(const Grid& grid, std::array<Field, 3>& into) const {
   for (int axis = 0; axis < 3; ++axis) {
     Field& field = of(into, axis);
     std::fill(field.begin(), field.end(), 0.0f);
-    // In cells from the corner to the index of a value: faces lie on the corner along their axis.
+    // Offset from a position in cells to the index of a value: along their own axis, faces lie on
+    // the lower side of a cell, and in its middle along the others.
     Vec3f half = Vec3f::Constant(0.5f);
     half[axis] = 1;
     for_chunks(
@@ -53,13 +54,13 @@ Vec3f Flow::velocity(const Vec3f& point_W) const {
   return velocity;
 }
 
-/// At indices of the axis' faces, kept within them.
+/// Returns the velocity at a point in face indices of an axis, clamped to the grid.
 float Flow::sample(int axis, const Vec3f& at) const {
   const Vec3f most = (grid_.lattice.counts + Vec3i::Ones()).cast<float>();
   return between(axis, at.cwiseMax(0.0f).cwiseMin(most));
 }
 
-/// Trilinear, between faces that are there.
+/// Interpolates trilinearly at a point in face indices of an axis that is within the grid.
 float Flow::between(int axis, const Vec3f& at) const {
   const Lattice& lattice = grid_.lattice;
   const Vec3i low = at.cast<int>();
@@ -75,7 +76,7 @@ float Flow::between(int axis, const Vec3f& at) const {
 FlowGradient Flow::gradient(const Vec3i& cell) const {
   const Lattice& lattice = grid_.lattice;
   const std::size_t at = lattice.index(cell.x(), cell.y(), cell.z());
-  Mat3f slope;  // of component `axis` along `other`
+  Mat3f slope;  // slope(axis, other): change of component `axis` per cell along `other`
   for (int axis = 0; axis < 3; ++axis) {
     const float* u = &of(velocity_, axis)[at];
     const std::ptrdiff_t next = lattice.stride(axis);

@@ -7,46 +7,49 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kSmallestCell_m = 0.125;
-constexpr double kNotch = 1.4142135623730951;  // cells grow and shrink by this factor
-constexpr double kRoom = 0.15;                 // part of the cells around the dust, on each side
-constexpr double kGroundCells = 6;             // over the ground, within which it is the floor
-constexpr double kLeastMargin = 0.075;         // of which so much must be left before it moves
+constexpr double kMinCell_m = 0.125;
+constexpr double kCellSizeStep = 1.4142135623730951;  // factor by which the cell size changes
+// Margin around the dust when placed, as a fraction of the grid.
+constexpr double kPlacingMargin = 0.15;
+// Height above the ground, in cells, below which dust gets a grid with the ground as its floor.
+constexpr double kGroundCells = 6;
+constexpr double kKeepingMargin = 0.075;  // margin below which the grid moves, fraction of the grid
 
-/// Whether dust of this extent fits when the grid is placed anew.
-bool all_fit(const Vec3& extent, const Vec3i& counts, double cell_m) {
+/// Returns true if dust of this extent fits with the margin along all axes.
+bool fits_along_all_axes(const Vec3& extent, const Vec3i& counts, double cell_m) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!grid_fits(extent[axis], counts[axis], cell_m)) return false;
   }
   return true;
 }
 
-double whole(double x, double unit) { return std::floor(x / unit + 0.5) * unit; }
+double rounded_to_multiple(double x, double unit) { return std::floor(x / unit + 0.5) * unit; }
 
-bool too_large(const Grid& grid, const Vec3& extent) {
-  const double smaller_m = grid.cell_m / (kNotch * kNotch);
-  return smaller_m > 0.99 * kSmallestCell_m && all_fit(extent, grid.lattice.counts, smaller_m);
+bool has_too_large_cells(const Grid& grid, const Vec3& extent) {
+  const double smaller_m = grid.cell_m / (kCellSizeStep * kCellSizeStep);
+  return smaller_m > 0.99 * kMinCell_m &&
+         fits_along_all_axes(extent, grid.lattice.counts, smaller_m);
 }
 
 }  // namespace
 
 bool grid_fits(double extent_m, int count, double cell_m) {
-  return extent_m <= (1 - 2 * kRoom) * cell_m * count;
+  return extent_m <= (1 - 2 * kPlacingMargin) * cell_m * count;
 }
 
 double cell_m_for(const Vec3& extent, const Vec3i& counts) {
-  double cell_m = kSmallestCell_m;
-  while (!all_fit(extent, counts, cell_m)) cell_m *= kNotch;
+  double cell_m = kMinCell_m;
+  while (!fits_along_all_axes(extent, counts, cell_m)) cell_m *= kCellSizeStep;
   return cell_m;
 }
 
 bool may_stay(const Grid& grid, const Box& dust) {
-  const Vec3 margin = kLeastMargin * grid.extent_m();
+  const Vec3 margin = kKeepingMargin * grid.extent_m();
   const Vec3 over = dust.max + margin - grid.origin_W - grid.extent_m();
   const Vec3 under = dust.min - margin - grid.origin_W;
   const bool inside = (over.array() <= 0).all() && under.x() >= 0 && under.z() >= 0 &&
                       (under.y() >= 0 || grid.on_ground);
-  return inside && !too_large(grid, dust.extent());
+  return inside && !has_too_large_cells(grid, dust.extent());
 }
 
 Grid grid_around(const Box& dust, double ground_m, const Grid& old, bool placed) {
@@ -54,18 +57,18 @@ Grid grid_around(const Box& dust, double ground_m, const Grid& old, bool placed)
   SUNDER_CHECK(extent.allFinite());
   Grid grid = old;
   const double cell_m = cell_m_for(extent, grid.lattice.counts);
-  // Without need the cells stay as large as they are.
-  if (!placed || too_large(old, extent) || cell_m > old.cell_m) grid.cell_m = cell_m;
+  // The cell size changes only if necessary.
+  if (!placed || has_too_large_cells(old, extent) || cell_m > old.cell_m) grid.cell_m = cell_m;
   const Vec3 corner = dust.center() - 0.5 * grid.extent_m();
-  // Moved by whole cells, the flow is copied, not blurred.
+  // A move by whole cells copies the flow without blurring it.
   const Vec3 from = placed ? old.origin_W : corner;
-  grid.origin_W.x() = from.x() + whole(corner.x() - from.x(), grid.cell_m);
-  grid.origin_W.z() = from.z() + whole(corner.z() - from.z(), grid.cell_m);
-  const double above_m = dust.min.y() - kRoom * grid.extent_m().y() - ground_m;
-  const double top_m = ground_m + (1 - kRoom) * grid.extent_m().y();
+  grid.origin_W.x() = from.x() + rounded_to_multiple(corner.x() - from.x(), grid.cell_m);
+  grid.origin_W.z() = from.z() + rounded_to_multiple(corner.z() - from.z(), grid.cell_m);
+  const double above_m = dust.min.y() - kPlacingMargin * grid.extent_m().y() - ground_m;
+  const double top_m = ground_m + (1 - kPlacingMargin) * grid.extent_m().y();
   grid.on_ground = above_m <= 0 ||
                    (dust.max.y() <= top_m && dust.min.y() <= ground_m + kGroundCells * grid.cell_m);
-  grid.origin_W.y() = ground_m + (grid.on_ground ? 0 : whole(above_m, grid.cell_m));
+  grid.origin_W.y() = ground_m + (grid.on_ground ? 0 : rounded_to_multiple(above_m, grid.cell_m));
   return grid;
 }
 

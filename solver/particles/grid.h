@@ -1,4 +1,4 @@
-// Where the grid of the air is.
+// Placement of the grid of the air in the world.
 #pragma once
 
 #include "engine/base/types.h"
@@ -6,24 +6,24 @@
 
 namespace sunder::solver {
 
-/// A lattice in the world: cell (1, 1, 1) begins at the origin.
+/// A lattice in the world: the lower corner of cell (1, 1, 1) is at the origin.
 struct Grid {
   Lattice lattice;
   Vec3 origin_W = Vec3::Zero();
   double cell_m = 1;
-  bool on_ground = false;  ///< Its floor is the ground, which is closed.
+  bool on_ground = false;  ///< True if the floor of the grid is the ground, which is closed.
 
   Vec3 extent_m() const { return cell_m * lattice.counts.cast<double>(); }
 };
 
-/// The smallest cells of which so many hold dust of an extent with room to spare.
+/// Returns the smallest cell size at which `counts` cells hold dust of this extent with a margin.
 double cell_m_for(const Vec3& extent, const Vec3i& counts);
-/// Whether so many cells hold dust of an extent along an axis with room to spare.
+/// Returns true if `count` cells hold dust of this extent along an axis with a margin.
 bool grid_fits(double extent_m, int count, double cell_m);
-/// Whether a grid holds `dust` so well that it may stay.
+/// Returns true if the grid holds `dust` with a sufficient margin and its cells are not too large.
 bool may_stay(const Grid& grid, const Box& dust);
-/// A grid of as many cells around `dust`; not `placed` yet, it goes anywhere, else it moves from
-/// where it is by whole cells, and no smaller or larger than it must be.
+/// Returns a grid around `dust` with the cell counts of `grid`. If `placed`, the grid moves by
+/// whole cells from its old place, and its cell size changes only if necessary.
 Grid grid_around(const Box& dust, double ground_m, const Grid& grid, bool placed);
 
 }  // namespace sunder::solver

@@ -1,5 +1,4 @@
-// Numbers on a box of cubic cells and their faces, stored with a rim of zeros so that stencils
-// need no special case at the edge.
+// Fields on a box of cubic cells and their faces, with a border of zeros for stencils at the edge.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +13,8 @@ namespace sunder::solver {
 using Vec3i = Eigen::Vector3i;
 using Field = std::vector<float>;
 
-/// Cells (i, j, k) run from 1 to counts; face (i, j, k) of an axis is the cell's lower one, so
-/// faces run one further along their axis.
+/// Indexing of cells and faces. Cells (i, j, k) run from 1 to counts; face (i, j, k) of an axis is
+/// the lower face of that cell, so faces run one further along their axis.
 struct Lattice {
   Vec3i counts = Vec3i::Zero();
 
@@ -30,14 +29,14 @@ struct Lattice {
     return static_cast<std::size_t>(stride(2)) * static_cast<std::size_t>(counts.z() + 3);
   }
   std::size_t cells() const { return static_cast<std::size_t>(counts.prod()); }
-  /// Layers of cells that are worth a thread's while; depends on nothing but the lattice.
+  /// Returns the number of cell layers per parallel chunk; depends on the lattice alone.
   std::size_t layers_a_chunk() const {
     const auto layer = static_cast<std::size_t>(counts.x() * counts.y());
     return std::max<std::size_t>(1, (1 << 13) / layer);
   }
 };
 
-/// Largest magnitude in a row, lane by lane (the compiler may not reorder it by itself).
+/// Returns the greatest magnitude in a row, by lanes: the compiler may not reorder comparisons.
 inline float largest_in(const float* x, int count) {
   constexpr int kLanes = 8;
   float lanes[kLanes] = {};

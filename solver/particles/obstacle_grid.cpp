@@ -1,4 +1,4 @@
-// Read first: build(). Shapes stay in their rest frames: only their boxes are brought to the world.
+// Read first: build(). Shapes stay in their rest frames; only their boxes are transformed to W.
 #include "solver/particles/obstacle_grid.h"
 
 #include <algorithm>
@@ -9,27 +9,31 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kFinest_m = 0.5f;  // cells of level 0; those of the next are twice as wide
-// Shapes lie in all cells within this reach, so that what is no larger looks at one a level.
-constexpr float kReach_m = 0.0625f;
-constexpr float kMostCells = 8;                         // that a shape lies in
-constexpr double kRounding_m = 1e-4, kRounding = 3e-7;  // of places, and of how far away they are
-constexpr float kAround_m = 0.005f;                     // of ways, that a bounce may need
-constexpr float kTogether_m = 2;                        // so large a place is looked up at once
+constexpr float kFinestCell_m = 0.5f;  // cell size of level 0; the size doubles with each level
+// Shapes are entered into all cells within this distance, so that a query box of up to twice this
+// size needs only one cell per level.
+constexpr float kCellMargin_m = 0.0625f;
+constexpr float kMaxCellsPerShape = 8;  // greatest number of cells per shape
+// Rounding error of positions: absolute, and as a fraction of the distance from the origin.
+constexpr double kPositionError_m = 1e-4, kRelativePositionError = 3e-7;
+constexpr float kQueryMargin_m = 0.005f;  // margin of a query, so that bounces can reuse its result
+// Greatest size of a box that holds several paths in one query.
+constexpr float kMaxSharedQuery_m = 2;
 constexpr int kLevels = 31;
-constexpr float kFar_m = 8 * kFinest_m;  // in a larger place all shapes are looked at
-constexpr double kPart_m = 2;            // of a longer way, looked up one after the other
-constexpr double kMostParts = 64;
-constexpr std::size_t kObstacles = 512;
+// Query boxes larger than this are tested against all shapes.
+constexpr float kMaxHashedQuery_m = 8 * kFinestCell_m;
+constexpr double kPathPart_m = 2;     // longer paths are queried in parts of this length
+constexpr double kMaxPathParts = 64;  // paths of more parts are queried in one
+constexpr std::size_t kObstaclesPerChunk = 512;
 
-/// Cells of a level, along an axis, in a metre.
-float cells_per_m(int level) { return 1 / (kFinest_m * static_cast<float>(1 << level)); }
+/// Returns the number of cells of a level per metre along an axis.
+float cells_per_m(int level) { return 1 / (kFinestCell_m * static_cast<float>(1 << level)); }
 
-/// The finest level on which a box of that extent lies in few cells.
+/// Returns the finest level on which a box of that extent overlaps at most kMaxCellsPerShape cells.
 int level_of(const Vec3f& extent) {
   for (int level = 0;; ++level) {
-    const Vec3f cells = (extent.array() + 2 * kReach_m) * cells_per_m(level) + 1;
-    if (level + 1 == kLevels || cells.prod() <= kMostCells) return level;
+    const Vec3f cells = (extent.array() + 2 * kCellMargin_m) * cells_per_m(level) + 1;
+    if (level + 1 == kLevels || cells.prod() <= kMaxCellsPerShape) return level;
   }
 }
 
@@ -40,13 +44,13 @@ std::uint32_t hash_of(int level, const Eigen::Vector3i& cell) {
          static_cast<std::uint32_t>(level) * 2654435761u;
 }
 
-/// The cell of level 0 that holds a point; those of coarser levels follow by shifting.
+/// Returns the cell of level 0 that holds a point; a right shift by a level gives the cell there.
 Eigen::Vector3i cell_of(const Vec3f& point_W) {
-  // Far beyond any scene, so that the cast is defined.
-  return (point_W / kFinest_m).array().floor().max(-1e9f).min(1e9f).cast<int>();
+  // Clamped far outside any scene, so that the cast is defined.
+  return (point_W / kFinestCell_m).array().floor().max(-1e9f).min(1e9f).cast<int>();
 }
 
-/// Calls visit(hash, cell) for the cells of a level between two of level 0.
+/// Calls visit(hash, cell) for the cells of a level around the level-0 cells `first` to `last`.
 template <class Visit>
 void for_cells(int level, const Eigen::Vector3i& first, const Eigen::Vector3i& last,
                const Visit& visit) {
@@ -66,8 +70,8 @@ bool overlap(const Vec3f& min, const Vec3f& max, const Vec3f& low, const Vec3f& 
 
 }  // namespace
 
-/// The boxes that shapes sweep in the last step; empty for those not asked for.
-void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
+/// Computes the boxes that shapes sweep in the last step; empty for shapes that `which` excludes.
+void ObstacleGrid::compute_boxes(std::size_t begin, std::size_t end, Which which) {
   for (std::size_t s = begin; s < end; ++s) {
     const ObstacleShape& shape = placed_.obstacles.shapes[s];
     const ObstacleBody& body = placed_.obstacles.bodies[shape.body];
@@ -89,14 +93,14 @@ void ObstacleGrid::place(std::size_t begin, std::size_t end, Which which) {
     box.max = center + half;
     if (!body.moves) continue;
     const double spin_m_s = body.angular_velocity_W.norm() * reach;
-    if (which == Which::kMoving && body.velocity_W.norm() + spin_m_s < kCreep_m_s) {
+    if (which == Which::kMoving && body.velocity_W.norm() + spin_m_s < kRestSpeed_m_s) {
       box = Box();
       continue;
     }
-    // Its pose is that at the end of the step: it comes from behind.
-    const Vec3 way = dt_s_ * body.velocity_W, spin = Vec3::Constant(dt_s_ * spin_m_s);
-    box.min -= way.cwiseMax(0) + spin;
-    box.max -= way.cwiseMin(0) - spin;
+    // The pose is that at the end of the step, so the swept box extends backwards.
+    const Vec3 shift = dt_s_ * body.velocity_W, spin = Vec3::Constant(dt_s_ * spin_m_s);
+    box.min -= shift.cwiseMax(0) + spin;
+    box.max -= shift.cwiseMin(0) - spin;
   }
 }
 
@@ -116,7 +120,8 @@ PlacedObstacle ObstacleGrid::placed(std::uint32_t index) const {
     placed.faces = shape.hull->faces;
   }
   placed.center_W = center_W.cast<float>();
-  placed.half_m = (half.array() + kRounding_m + kRounding * center_W.norm()).cast<float>();
+  placed.half_m =
+      (half.array() + kPositionError_m + kRelativePositionError * center_W.norm()).cast<float>();
   placed.rotation_BW = rotation.transpose().cast<float>();
   if (body.moves) {
     const VelocityField motion{body.X_WB.position, body.velocity_W, body.angular_velocity_W};
@@ -134,10 +139,11 @@ void ObstacleGrid::sort_into_cells() {
   const auto each_cell = [&](const PlacedObstacle& placed, const auto& visit) {
     const int level = level_of(placed.max - placed.min);
     levels_ |= 1u << level;
-    for_cells(level, cell_of(placed.min.array() - kReach_m), cell_of(placed.max.array() + kReach_m),
+    for_cells(level, cell_of(placed.min.array() - kCellMargin_m),
+              cell_of(placed.max.array() + kCellMargin_m),
               [&](std::uint32_t hash, const Eigen::Vector3i&) { visit(hash & mask_); });
   };
-  // Starts are kept one bucket behind while it is filled.
+  // While entries are filled in, first_[b + 1] is the next free entry of bucket b.
   for (const PlacedObstacle& placed : placed_.shapes)
     each_cell(placed, [&](std::uint32_t b) { ++first_[b + 2]; });
   for (std::size_t b = 2; b < first_.size(); ++b) first_[b] += first_[b - 1];
@@ -157,38 +163,41 @@ void ObstacleGrid::build(const Obstacles& obstacles, double dt_s, const Box& reg
   const auto moves = [](const ObstacleBody& body) { return body.moves; };
   if (which == Which::kMoving && std::ranges::none_of(obstacles.bodies, moves)) return;
   placed_.rotations_WB.resize(obstacles.bodies.size());
-  for_chunks(obstacles.bodies.size(), kObstacles,
+  for_chunks(obstacles.bodies.size(), kObstaclesPerChunk,
              [&](std::size_t begin, std::size_t end, std::size_t) {
                for (std::size_t b = begin; b < end; ++b) {
                  placed_.rotations_WB[b] = obstacles.bodies[b].X_WB.rotation.toRotationMatrix();
                }
              });
   boxes_.resize(obstacles.shapes.size());
-  for_chunks(boxes_.size(), kObstacles,
-             [&](std::size_t begin, std::size_t end, std::size_t) { place(begin, end, which); });
+  for_chunks(
+      boxes_.size(), kObstaclesPerChunk,
+      [&](std::size_t begin, std::size_t end, std::size_t) { compute_boxes(begin, end, which); });
   reached_.clear();
   for (std::uint32_t s = 0; s < boxes_.size(); ++s) {
     if (boxes_[s].overlaps(region)) reached_.push_back(s);
   }
   if (reached_.empty()) return;
   placed_.shapes.resize(reached_.size());
-  for_chunks(reached_.size(), kObstacles, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) placed_.shapes[i] = placed(reached_[i]);
-  });
+  for_chunks(reached_.size(), kObstaclesPerChunk,
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (std::size_t i = begin; i < end; ++i) placed_.shapes[i] = placed(reached_[i]);
+             });
   sort_into_cells();
 }
 
-/// Without a branch a lane: which of them is wrong cannot be foreseen.
-inline bool ObstacleGrid::reaches(const Entry& entry, Four low, Four high) {
+/// Returns true if the boxes overlap; branch-free, because the failing axis is unpredictable.
+inline bool ObstacleGrid::overlaps_box(const Entry& entry, Four low, Four high) {
   const auto lanes = (entry.min <= high) & (low <= entry.max);
   const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(lanes);
   return (halves[0] & (halves[1] | 0xffffffff00000000)) == ~std::uint64_t{0};
 }
 
-/// Where a box lies in several cells, only the first of them gives what it holds.
+/// Appends the shapes whose boxes overlap the box from `low` to `high`. A shape in several of the
+/// visited cells is reported by the first of them only.
 void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
                         std::vector<std::uint32_t>& shapes) const {
-  if ((high - low).maxCoeff() > kFar_m) {
+  if ((high - low).maxCoeff() > kMaxHashedQuery_m) {
     for (std::uint32_t s = 0; s < placed_.shapes.size(); ++s) {
       if (overlap(placed_.shapes[s].min, placed_.shapes[s].max, low, high)) shapes.push_back(s);
     }
@@ -196,17 +205,17 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
   }
   const Four low_4 = four(low), high_4 = four(high);
   const Vec3f middle = 0.5f * (low + high);
-  const Eigen::Vector3i first = cell_of((low.array() + kReach_m).min(middle.array()));
-  const Eigen::Vector3i last = cell_of((high.array() - kReach_m).max(middle.array()));
+  const Eigen::Vector3i first = cell_of((low.array() + kCellMargin_m).min(middle.array()));
+  const Eigen::Vector3i last = cell_of((high.array() - kCellMargin_m).max(middle.array()));
   for (std::uint32_t left = levels_; left != 0; left &= left - 1) {
     const int level = std::countr_zero(left);
     for_cells(level, first, last, [&](std::uint32_t hash, const Eigen::Vector3i& cell) {
       const std::uint32_t bucket = hash & mask_;
       for (std::uint32_t e = first_[bucket]; e < first_[bucket + 1]; ++e) {
         const Entry& entry = entries_[e];
-        if (!reaches(entry, low_4, high_4)) continue;
+        if (!overlaps_box(entry, low_4, high_4)) continue;
         const Vec3f corner(entry.min[0], entry.min[1], entry.min[2]);
-        const Eigen::Vector3i begin = cell_of(corner.array() - kReach_m).cwiseMax(first);
+        const Eigen::Vector3i begin = cell_of(corner.array() - kCellMargin_m).cwiseMax(first);
         if (Eigen::Vector3i(begin.x() >> level, begin.y() >> level, begin.z() >> level) == cell) {
           shapes.push_back(entry.placed());
         }
@@ -215,36 +224,36 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
   }
 }
 
-void ObstacleGrid::find(std::span<const SphereWay> ways, Near& near) const {
+void ObstacleGrid::find(std::span<const SpherePath> paths, Near& near) const {
   if (placed_.shapes.empty()) return;
   Vec3f low = Vec3f::Constant(1e30f), high = -low;
-  const auto low_of = [](const SphereWay& way) {
-    return Vec3f((way.from.cwiseMin(way.to).array() - way.radius_m).cast<float>());
+  const auto low_of = [](const SpherePath& path) {
+    return Vec3f((path.from.cwiseMin(path.to).array() - path.radius_m).cast<float>());
   };
-  const auto high_of = [](const SphereWay& way) {
-    return Vec3f((way.from.cwiseMax(way.to).array() + way.radius_m).cast<float>());
+  const auto high_of = [](const SpherePath& path) {
+    return Vec3f((path.from.cwiseMax(path.to).array() + path.radius_m).cast<float>());
   };
-  for (const SphereWay& way : ways) {
-    low = low.cwiseMin(low_of(way));
-    high = high.cwiseMax(high_of(way));
+  for (const SpherePath& path : paths) {
+    low = low.cwiseMin(low_of(path));
+    high = high.cwiseMax(high_of(path));
   }
   if ((low.array() >= near.low.array()).all() && (high.array() <= near.high.array()).all()) return;
-  near = {std::move(near.shapes), low.array() - kAround_m, high.array() + kAround_m};
+  near = {std::move(near.shapes), low.array() - kQueryMargin_m, high.array() + kQueryMargin_m};
   near.shapes.clear();
-  if ((high - low).maxCoeff() <= kTogether_m) {
+  if ((high - low).maxCoeff() <= kMaxSharedQuery_m) {
     find(near.low, near.high, near.shapes);
     return;
   }
-  near.high = near.low - Vec3f::Ones();  // holds for these ways alone
-  for (const SphereWay& way : ways) {
-    const double parts = std::ceil((way.to - way.from).cwiseAbs().maxCoeff() / kPart_m);
-    if (!(parts > 1 && parts <= kMostParts)) {
-      find(low_of(way), high_of(way), near.shapes);
+  near.high = near.low - Vec3f::Ones();  // empty: the result is valid for these paths alone
+  for (const SpherePath& path : paths) {
+    const double parts = std::ceil((path.to - path.from).cwiseAbs().maxCoeff() / kPathPart_m);
+    if (!(parts > 1 && parts <= kMaxPathParts)) {
+      find(low_of(path), high_of(path), near.shapes);
       continue;
     }
-    SphereWay part = way;
+    SpherePath part = path;
     for (double k = 1; k <= parts; ++k) {
-      part.to = way.from + k / parts * (way.to - way.from);
+      part.to = path.from + k / parts * (path.to - path.from);
       find(low_of(part), high_of(part), near.shapes);
       part.from = part.to;
     }

@@ -1,5 +1,5 @@
 // Read first: solve(), then cycle(). Every kernel runs along rows of cells, which the compiler
-// vectorises; sums are kept per layer and lane, so that they do not depend on threads.
+// vectorises; sums are kept per layer and lane, so that they do not depend on the threads.
 #include "solver/particles/pressure.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace sunder::solver {
 namespace {
 
-constexpr int kMostIterations = 16;
-constexpr int kSweeps = 2;  // before and after a coarser level
+constexpr int kMaxPressureIterations = 16;
+constexpr int kSweeps = 2;  // smoothing sweeps before and after a coarser level
 constexpr int kCoarsestSweeps = 8;
-constexpr int kSums = 8;
+constexpr int kSumLanes = 8;
 
 /// Calls work(j, k) for every row of cells of each layer, layers in parallel.
 template <class Work>
@@ -27,12 +27,12 @@ void for_rows(const Lattice& lattice, const Work& work) {
              });
 }
 
-/// A row of the linear system: pointers to its first cell.
+/// A row of the linear system: pointers to the coefficients of its first cell, and strides.
 struct Row {
   const float *ax, *ay, *az;
   std::ptrdiff_t sy, sz;
 
-  /// Σ a · neighbour at cell i, of the four in other rows and of all six.
+  /// Return Σ a · neighbour at cell i: over the four neighbours in other rows, over all six.
   float across(const float* x, int i) const {
     return ay[i] * x[i - sy] + ay[i + sy] * x[i + sy] +
            (az[i] * x[i - sz] + az[i + sz] * x[i + sz]);
@@ -49,7 +49,7 @@ Row row_of(const Lattice& lattice, const std::array<Field, 3>& a, std::size_t at
   return {&a[0][at], &a[1][at], &a[2][at], lattice.stride(1), lattice.stride(2)};
 }
 
-/// Sums the layers' parts in order; work(row's first index) gives a row's part.
+/// Returns the sum of work(first index of a row) over all rows, added layer by layer in order.
 template <class Work>
 double sum_rows(const Lattice& lattice, std::vector<double>& partial, const Work& work) {
   std::fill(partial.begin(), partial.end(), 0.0);
@@ -61,11 +61,11 @@ double sum_rows(const Lattice& lattice, std::vector<double>& partial, const Work
   return sum;
 }
 
-/// Of two rows, lane by lane.
+/// Returns the dot product of two rows, summed by lanes.
 double dot_row(const float* x, const float* y, int count) {
-  float lanes[kSums] = {};
-  for (int i = 0; i < count; i += kSums) {
-    for (int l = 0; l < kSums; ++l) lanes[l] += x[i + l] * y[i + l];
+  float lanes[kSumLanes] = {};
+  for (int i = 0; i < count; i += kSumLanes) {
+    for (int l = 0; l < kSumLanes; ++l) lanes[l] += x[i + l] * y[i + l];
   }
   double sum = 0;
   for (const float lane : lanes) sum += double{lane};
@@ -76,15 +76,15 @@ double dot_row(const float* x, const float* y, int count) {
 
 PressureSolver::PressureSolver(const Vec3i& counts) {
   for (Vec3i size = counts; size.minCoeff() >= 4; size /= 2) {
-    SUNDER_CHECK(size.x() % kSums == 0 && size.x() <= kLongestRow);
+    SUNDER_CHECK(size.x() % kSumLanes == 0 && size.x() <= kLongestRow);
     Level& level = levels_.emplace_back();
     level.lattice = {size};
     const std::size_t cells = level.lattice.size();
     for (Field& a : level.a) a.assign(cells, 0);
-    for (Field* field : {&level.inverse_diagonal, &level.rest, &level.correction}) {
+    for (Field* field : {&level.inverse_diagonal, &level.residual, &level.correction}) {
       field->assign(cells, 0);
     }
-    if (size.x() % (2 * kSums) != 0 || size.y() % 2 != 0 || size.z() % 2 != 0) break;
+    if (size.x() % (2 * kSumLanes) != 0 || size.y() % 2 != 0 || size.z() % 2 != 0) break;
   }
   SUNDER_CHECK(!levels_.empty());
   for (Field* field : {&pressure_, &direction_, &image_}) {
@@ -105,7 +105,8 @@ void PressureSolver::find_diagonal(Level& level) {
   });
 }
 
-/// Four fine faces make a coarse one, over twice the distance.
+/// Computes the coarse coefficients: half the sum of the four fine faces of each coarse face,
+/// because the distance between cells is twice as large.
 void PressureSolver::coarsen(const Level& fine, Level& coarse) {
   const Vec3i& counts = coarse.lattice.counts;
   for (int axis = 0; axis < 3; ++axis) {
@@ -125,52 +126,52 @@ void PressureSolver::coarsen(const Level& fine, Level& coarse) {
   }
 }
 
-/// Gauss-Seidel over rows of one colour of the checkerboard (j + k), Jacobi along the row.
+/// Smooths rows of one colour of the checkerboard (j + k): Gauss-Seidel, Jacobi along a row.
 void PressureSolver::smooth_colour(Level& level, int colour) {
   for_rows(level.lattice, [&](int j, int k) {
     if (((j + k) & 1) != colour) return;
     const std::size_t at = level.lattice.index(1, j, k);
     const Row row = row_of(level.lattice, level.a, at);
-    const float* rest = &level.rest[at];
+    const float* residual = &level.residual[at];
     const float* inverse = &level.inverse_diagonal[at];
     float* x = &level.correction[at];
     const int count = level.lattice.counts.x();
     float changed[kLongestRow];
-    for (int i = 0; i < count; ++i) changed[i] = (rest[i] + row.neighbours(x, i)) * inverse[i];
+    for (int i = 0; i < count; ++i) changed[i] = (residual[i] + row.neighbours(x, i)) * inverse[i];
     std::copy_n(changed, count, x);
   });
 }
 
-/// The first forward sweep, from zero: much of what it would read is.
-void PressureSolver::begin(Level& level) {
+/// The first forward sweep of smoothing, specialised for an initial correction of zero.
+void PressureSolver::smooth_from_zero(Level& level) {
   const int count = level.lattice.counts.x();
   for_rows(level.lattice, [&](int j, int k) {
     if (((j + k) & 1) != 0) return;
     const std::size_t at = level.lattice.index(1, j, k);
-    const float *rest = &level.rest[at], *inverse = &level.inverse_diagonal[at];
+    const float *residual = &level.residual[at], *inverse = &level.inverse_diagonal[at];
     float* __restrict x = &level.correction[at];
-    for (int i = 0; i < count; ++i) x[i] = rest[i] * inverse[i];
+    for (int i = 0; i < count; ++i) x[i] = residual[i] * inverse[i];
   });
   for_rows(level.lattice, [&](int j, int k) {
     if (((j + k) & 1) != 1) return;
     const std::size_t at = level.lattice.index(1, j, k);
     const Row row = row_of(level.lattice, level.a, at);
-    const float *rest = &level.rest[at], *inverse = &level.inverse_diagonal[at];
+    const float *residual = &level.residual[at], *inverse = &level.inverse_diagonal[at];
     float* x = &level.correction[at];
     float changed[kLongestRow];
-    for (int i = 0; i < count; ++i) changed[i] = (rest[i] + row.across(x, i)) * inverse[i];
+    for (int i = 0; i < count; ++i) changed[i] = (residual[i] + row.across(x, i)) * inverse[i];
     std::copy_n(changed, count, x);
   });
 }
 
-/// Backward is the transpose of forward, so that a cycle of both is symmetric.
+/// One smoothing sweep; backward is the transpose of forward, which keeps the V-cycle symmetric.
 void PressureSolver::smooth(Level& level, Order order) {
   smooth_colour(level, order == Order::kForward ? 0 : 1);
   smooth_colour(level, order == Order::kForward ? 1 : 0);
 }
 
-/// Sums what is left to solve over eight fine cells each.
-void PressureSolver::restrict_rest(const Level& fine, Level& coarse) {
+/// Restricts the residual: each coarse cell gets the sum over its eight fine cells.
+void PressureSolver::restrict_residual(const Level& fine, Level& coarse) {
   for_rows(coarse.lattice, [&](int j, int k) {
     const int count = fine.lattice.counts.x();
     float sum[kLongestRow] = {};
@@ -178,14 +179,14 @@ void PressureSolver::restrict_rest(const Level& fine, Level& coarse) {
       for (const int fine_j : {2 * j - 1, 2 * j}) {
         const std::size_t at = fine.lattice.index(1, fine_j, fine_k);
         const Row row = row_of(fine.lattice, fine.a, at);
-        const float* rest = &fine.rest[at];
+        const float* residual = &fine.residual[at];
         const float* x = &fine.correction[at];
         for (int i = 0; i < count; ++i) {
-          sum[i] += rest[i] + row.neighbours(x, i) - row.diagonal(i) * x[i];
+          sum[i] += residual[i] + row.neighbours(x, i) - row.diagonal(i) * x[i];
         }
       }
     }
-    float* out = &coarse.rest[coarse.lattice.index(1, j, k)];
+    float* out = &coarse.residual[coarse.lattice.index(1, j, k)];
     for (int i = 0; i < count / 2; ++i) out[i] = sum[2 * i] + sum[2 * i + 1];
   });
 }
@@ -201,22 +202,22 @@ void PressureSolver::prolong(const Level& coarse, Level& fine) {
   });
 }
 
-/// One V-cycle on level's `rest`, from zero.
+/// Runs one V-cycle for the right-hand side `residual` of a level, from a correction of zero.
 void PressureSolver::cycle(std::size_t at) {
   Level& level = levels_[at];
-  begin(level);
+  smooth_from_zero(level);
   const bool coarsest = at + 1 == levels_.size();
   const int sweeps = coarsest ? kCoarsestSweeps : kSweeps;
   for (int i = 1; i < sweeps; ++i) smooth(level, Order::kForward);
   if (!coarsest) {
-    restrict_rest(level, levels_[at + 1]);
+    restrict_residual(level, levels_[at + 1]);
     cycle(at + 1);
     prolong(levels_[at + 1], level);
   }
   for (int i = 0; i < sweeps; ++i) smooth(level, Order::kBackward);
 }
 
-/// The matrix times direction_, to image_; returns their product.
+/// Computes image_ = matrix · direction_; returns direction_ · image_.
 double PressureSolver::apply_and_dot() {
   const Lattice& lattice = levels_[0].lattice;
   const int count = lattice.counts.x();
@@ -235,7 +236,7 @@ double PressureSolver::dot(const Field& x, const Field& y) {
                   [&](std::size_t at) { return dot_row(&x[at], &y[at], lattice.counts.x()); });
 }
 
-/// direction = correction + beta · direction.
+/// Computes direction = correction + beta · direction.
 void PressureSolver::update_direction(float beta) {
   const Lattice& lattice = levels_[0].lattice;
   for_rows(lattice, [&](int j, int k) {
@@ -248,7 +249,7 @@ void PressureSolver::update_direction(float beta) {
   });
 }
 
-/// pressure += alpha · direction, rest −= alpha · image; returns the largest rest.
+/// Computes pressure += alpha · direction, residual −= alpha · image; returns max |residual|.
 float PressureSolver::step(float alpha) {
   const Lattice& lattice = levels_[0].lattice;
   const int count = lattice.counts.x();
@@ -256,21 +257,21 @@ float PressureSolver::step(float alpha) {
   for_rows(lattice, [&](int j, int k) {
     const std::size_t at = lattice.index(1, j, k);
     float* p = &pressure_[at];
-    float* rest = &levels_[0].rest[at];
+    float* residual = &levels_[0].residual[at];
     const float* direction = &direction_[at];
     const float* image = &image_[at];
     for (int i = 0; i < count; ++i) {
       p[i] += alpha * direction[i];
-      rest[i] -= alpha * image[i];
+      residual[i] -= alpha * image[i];
     }
     double& largest = partial_[static_cast<std::size_t>(k) - 1];
-    largest = std::max(largest, double{largest_in(rest, count)});
+    largest = std::max(largest, double{largest_in(residual, count)});
   });
   return static_cast<float>(*std::max_element(partial_.begin(), partial_.end()));
 }
 
-/// As far as is best along a direction whose product with what is left is known.
-float PressureSolver::descend(double slope) {
+/// Minimizes along direction_; `slope` is direction_ · residual. Returns max |residual|.
+float PressureSolver::line_search(double slope) {
   const double curvature = apply_and_dot();
   return step(curvature > 0 ? static_cast<float>(slope / curvature) : 0);
 }
@@ -281,18 +282,18 @@ int PressureSolver::solve(float tolerance) {
     coarsen(levels_[level - 1], levels_[level]);
     find_diagonal(levels_[level]);
   }
-  // The pressure of last time is the first direction.
+  // Warm start: the pressure of the last solve is the first search direction.
   std::swap(direction_, pressure_);
   std::fill(pressure_.begin(), pressure_.end(), 0.0f);
-  float largest = descend(dot(levels_[0].rest, direction_));
+  float largest = line_search(dot(levels_[0].residual, direction_));
   double before = 0;
   int iterations = 0;
-  for (; largest > tolerance && iterations < kMostIterations; ++iterations) {
+  for (; largest > tolerance && iterations < kMaxPressureIterations; ++iterations) {
     cycle(0);
-    const double now = dot(levels_[0].rest, levels_[0].correction);
+    const double now = dot(levels_[0].residual, levels_[0].correction);
     update_direction(before > 0 ? static_cast<float>(now / before) : 0);
     before = now;
-    largest = descend(now);
+    largest = line_search(now);
   }
   return iterations;
 }

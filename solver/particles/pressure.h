@@ -1,5 +1,5 @@
-// The pressure that makes a flow on a lattice free of divergence: conjugate gradients,
-// preconditioned by one multigrid V-cycle (as McAdams et al. 2010 do).
+// Solver for the pressure that makes a flow on a lattice divergence-free: conjugate gradients
+// preconditioned by one multigrid V-cycle (McAdams et al. 2010).
 #pragma once
 
 #include <array>
@@ -9,53 +9,52 @@
 
 namespace sunder::solver {
 
-/// Solves Σ_f a_f (p_cell − p_neighbour) = −divergence, p = 0 beyond the rim.
+/// Solves Σ_f a_f (p_cell − p_neighbour) = −divergence, with p = 0 outside the lattice.
 class PressureSolver {
  public:
-  /// Counts are at least 4; along x a multiple of 8, 128 at most. The more often they halve, the
-  /// faster.
+  /// Makes a solver for `counts` cells per axis: at least 4; along x a multiple of 8, at most 128.
+  /// The more often the counts can be halved, the faster the solve.
   explicit PressureSolver(const Vec3i& counts);
 
-  /// Per axis, the coefficient of each face: its open part; twice that on the rim, where p = 0
-  /// lies on the face; 0 where the rim is closed. Set, then call solve().
+  /// Returns the coefficients of the faces of each axis, to be set before solve(): the open
+  /// fraction; twice that on the boundary, where p = 0 lies on the face; 0 where it is closed.
   std::array<Field, 3>& coefficients() { return levels_[0].a; }
-  /// Minus the net outflow of each cell.
-  Field& inflow() { return levels_[0].rest; }
-  /// As the last solve left it; the next one starts from here.
+  /// Returns the net inflow (−outflow) of each cell, to be set before solve(); overwritten by it.
+  Field& inflow() { return levels_[0].residual; }
+  /// Returns the pressure of the last solve, from which the next one starts.
   Field& pressure() { return pressure_; }
-  /// Until no cell's net outflow exceeds the tolerance, in a bounded number of iterations, which
-  /// it returns.
+  /// Solves until no net outflow exceeds the tolerance; returns the number of iterations, up to 16.
   int solve(float tolerance);
 
  private:
-  /// One grid of the hierarchy. On the finest, `rest` is the residual of the whole solve.
+  /// One grid of the hierarchy. On the finest, `residual` is that of the whole solve.
   struct Level {
     Lattice lattice;
     std::array<Field, 3> a;
     Field inverse_diagonal;
-    Field rest;        ///< The right-hand side.
-    Field correction;  ///< The solution.
+    Field residual;    ///< Right-hand side.
+    Field correction;  ///< Solution.
   };
   static constexpr int kLongestRow = 128;
   enum class Order { kForward, kBackward };
 
   static void find_diagonal(Level& level);
   static void coarsen(const Level& fine, Level& coarse);
-  static void begin(Level& level);
+  static void smooth_from_zero(Level& level);
   static void smooth(Level& level, Order order);
   static void smooth_colour(Level& level, int colour);
-  static void restrict_rest(const Level& fine, Level& coarse);
+  static void restrict_residual(const Level& fine, Level& coarse);
   static void prolong(const Level& coarse, Level& fine);
   void cycle(std::size_t level);
   double apply_and_dot();
   double dot(const Field& x, const Field& y);
-  float descend(double slope);
+  float line_search(double slope);
   void update_direction(float beta);
   float step(float alpha);
 
   std::vector<Level> levels_;
   Field pressure_, direction_, image_;
-  std::vector<double> partial_;  ///< Per layer of cells.
+  std::vector<double> partial_;  ///< Partial result of each layer of cells.
 };
 
 }  // namespace sunder::solver

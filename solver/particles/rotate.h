@@ -1,4 +1,4 @@
-// How a rotation follows an angular velocity.
+// Integration of a rotation by an angular velocity.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace sunder::solver {
 
-/// Turns by angular_velocity_W · dt_s; accurate for turns well below a radian. Not rotation_by():
-/// thousands of particles follow it a step, which need no sine.
+/// Turns a rotation by angular_velocity_W · dt_s; accurate for turns well below a radian. Used in
+/// place of rotation_by() because it needs no sine, for thousands of particles per step.
 inline void rotate(Quatf& rotation, const Vec3f& angular_velocity_W, float dt_s) {
   const Vec3f half = 0.5f * dt_s * angular_velocity_W;
   const Quatf change = Quatf(0, half.x(), half.y(), half.z()) * rotation;

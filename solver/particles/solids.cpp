@@ -1,4 +1,4 @@
-// Read first: rasterize(). Layers of cells are filled in parallel, each by all blocks in order.
+// Read first: rasterize(). Layers of cells are filled in parallel, each with all blocks in order.
 #include "solver/particles/solids.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace sunder::solver {
 namespace {
 
-/// Part of a cell, as wide as 1, about x that lies within [-half, half].
+/// Returns the length of the part of a cell of width 1 centred at x that is within [-half, half].
 float overlap(float x, float half) {
   return std::max(0.0f, std::min(x + 0.5f, half) - std::max(x - 0.5f, -half));
 }
@@ -32,10 +32,10 @@ void Solids::place(const Grid& grid, const Obstacles& obstacles) {
       block.fill = static_cast<float>(std::min(1.0, shape.volume_m3 / extent.prod()));
     } else {
       block.half.setConstant(static_cast<float>(shape.radius_m / grid.cell_m));
-      block.fill = 0.5236f;  // of a cube: π / 6
+      block.fill = 0.5236f;  // volume of a ball / volume of its cube, π / 6
     }
     block.center = ((center_W - grid.origin_W) / grid.cell_m).cast<float>();
-    const float reach = block.half.norm() + 0.87f;  // and half a cell's diagonal
+    const float reach = block.half.norm() + 0.87f;  // 0.87: half the diagonal of a cell
     if ((block.center.array() < -reach).any()) continue;
     if ((block.center.array() > counts.array() + reach).any()) continue;
     block.rotation = body.X_WB.rotation.toRotationMatrix().cast<float>();

@@ -1,4 +1,4 @@
-// How much of each cell of the air is solid, and how that solid moves.
+// Solid fraction of each cell of the air, and the velocity of that solid.
 #pragma once
 
 #include <array>
@@ -9,24 +9,24 @@
 
 namespace sunder::solver {
 
-/// Solid parts are those of the boxes that obstacles fill, exact where a box stands along the
-/// grid; so thin walls and crumbs smaller than a cell count for what they are.
+/// Rasterizes obstacles as boxes with a fill factor; exact for boxes aligned with the grid, and
+/// proportional to the volume also for thin walls and pieces smaller than a cell.
 class Solids {
  public:
   void rasterize(const Grid& grid, const Obstacles& obstacles);
 
-  Field fraction;                 ///< Per cell, 0 to 1 (more where obstacles overlap).
-  std::array<Field, 3> momentum;  ///< Per cell: fraction times velocity.
+  Field fraction;                 ///< Solid fraction of each cell; above 1 where obstacles overlap.
+  std::array<Field, 3> momentum;  ///< Solid fraction times velocity of each cell, in m/s.
 
  private:
-  /// A box in cells' units, with its corner (cell 1, 1, 1) at the origin.
+  /// A box in units of cells, relative to the lower corner of the grid.
   struct Block {
     std::uint32_t shape = 0;
     Vec3f center, half;
     Mat3f rotation;
-    float fill = 1;  ///< Part of the box that is solid.
-    Vec3i first, last;
-    VelocityField motion;  ///< Metres, in W.
+    float fill = 1;        ///< Solid fraction of the box.
+    Vec3i first, last;     ///< Range of cells that the box may overlap.
+    VelocityField motion;  ///< In m/s, in W.
   };
 
   void place(const Grid& grid, const Obstacles& obstacles);

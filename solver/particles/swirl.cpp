@@ -5,9 +5,9 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kProduction = 0.1f;   // C_k
-constexpr float kDissipation = 1.0f;  // C_epsilon
-// Of the vortex' profile q (1 − q²)², whose greatest value becomes 1.
+constexpr float kProduction = 0.1f;   // C_k of the one-equation model
+constexpr float kDissipation = 1.0f;  // C_epsilon of the one-equation model
+// Factor that makes the greatest value of the vortex profile q (1 − q²)² equal to 1.
 constexpr float kProfile = 3.4939f;
 
 }  // namespace
@@ -36,7 +36,7 @@ void Swirl::finish() {
   for (Vortex& vortex : vortices_) {
     vortex.at /= vortex.count;
     const float length = vortex.spin.norm();
-    // Of three directions the vortex moves the air in two.
+    // 2/3: a vortex moves the air in two of three directions.
     const float speed = std::sqrt(2.0f / 3 * vortex.energy / vortex.count);
     if (length > 0) vortex.spin *= speed / length;
   }

@@ -1,9 +1,9 @@
-// Small-scale turbulence from oriented particles: what the coarse grid cannot resolve.
+// Small-scale turbulence from oriented particles, below the resolution of the coarse grid.
 //
 // After Pfaff et al. 2010 ("Scalable fluid simulation using anisotropic turbulence particles"), as
-// the paper adapts it (section 5): every particle carries turbulent energy, fed by the strain of
-// the coarse flow, and an orientation, turned by that flow; here the orientation is the axis of a
-// small vortex. The vortices of a cell act together, as one with their common axis and energy.
+// adapted in section 5 of the paper: every particle carries turbulent energy, produced by the
+// strain of the coarse flow, and an orientation, rotated by that flow. Here the orientation is the
+// axis of a vortex, and the vortices of a cell are merged into one of their mean axis and energy.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@
 
 namespace sunder::solver {
 
-/// The vortices of all occupied cells of a lattice, gathered anew each step.
+/// The vortices of all occupied cells of a lattice, rebuilt each step.
 class Swirl {
  public:
   explicit Swirl(const Lattice& lattice);
 
   void clear();
-  /// A vortex at a place (in cells from the corner of `cell`'s lattice), turning about an axis.
+  /// Adds a vortex at a position in cells from the lower corner of the lattice.
   void add(std::size_t cell, const Vec3f& at, const Vec3f& axis, float speed_m_s);
-  /// Once all are added.
+  /// Computes the mean vortex of each cell; to be called when all are added.
   void finish();
-  /// The vortices within a cell's width of places in one cell, side by side.
+  /// The vortices within one cell's width of any point of a cell, in arrays for vector code.
   class Near {
    public:
-    /// The velocity that they add there.
+    /// Returns the velocity, in m/s, that the vortices add at a position in cells.
     Vec3f velocity(const Vec3f& at) const;
 
    private:
     friend Swirl;
     static constexpr std::size_t kMost = 32;
-    std::size_t count_ = 0;  ///< A multiple of kLanes; the last may be nowhere.
+    std::size_t count_ = 0;  ///< A multiple of kLanes, padded with vortices without effect.
     alignas(Wide) float at_[3][kMost], spin_[3][kMost];
   };
   void find(std::size_t cell, Near& near) const;
@@ -43,23 +43,22 @@ class Swirl {
  private:
   struct Vortex {
     std::size_t cell = 0;
-    Vec3f at = Vec3f::Zero();    ///< Sum, then mean.
-    Vec3f spin = Vec3f::Zero();  ///< Sum, then the axis times the speed at the vortex' rim.
+    Vec3f at = Vec3f::Zero();    ///< Sum of positions; after finish() their mean.
+    Vec3f spin = Vec3f::Zero();  ///< Sum of speed · axis; then unit axis · vortex speed.
     float energy = 0;            ///< Sum of squared speeds.
     float count = 0;
   };
 
   Lattice lattice_;
-  std::vector<std::int32_t> vortex_of_cell_;  ///< −1: none.
+  std::vector<std::int32_t> vortex_of_cell_;  ///< Index into vortices_, or −1.
   std::vector<Vortex> vortices_;
 };
 
-/// Speed of turbulence, as the square root of its energy per mass, after a step in a flow of that
-/// strain, on a grid of that cell: the one-equation model of Yoshizawa and Horiuti (1985) for
-/// what a grid does not resolve.
+/// Returns the turbulent speed (square root of the energy per mass) after a step, by the
+/// one-equation subgrid model of Yoshizawa and Horiuti (1985).
 float grow_turbulence(float speed_m_s, const Mat3f& strain_s, float cell_m, float dt_s);
 
-/// How fast a thin rod along `axis` turns in a flow (Jeffery 1922).
+/// Returns the angular velocity of a thin rod along `axis` in a flow (Jeffery 1922).
 Vec3f rod_spin(const Vec3f& axis, const Vec3f& vorticity_s, const Mat3f& strain_s);
 
 }  // namespace sunder::solver

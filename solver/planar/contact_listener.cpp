@@ -11,7 +11,7 @@ ContactListener::Pair pair_of(const b2Contact& contact) {
 
 }  // namespace
 
-bool ContactListener::asleep(const Passed& p) const {
+bool ContactListener::are_asleep(const PairImpulse& p) const {
   const auto still = [&](std::uint32_t slot) {
     return !bodies_[slot].dynamic() || !bodies_[slot].body->IsAwake();
   };
@@ -19,22 +19,22 @@ bool ContactListener::asleep(const Passed& p) const {
 }
 
 void ContactListener::begin() {
-  from_static.SetZero();
-  std::erase_if(passed,
-                [&](const auto& entry) { return entry.second.ended || !asleep(entry.second); });
-  for (auto& [pair, p] : passed) p.steps = -1;  // complete
+  impulse_from_static.SetZero();
+  std::erase_if(pair_impulses,
+                [&](const auto& entry) { return entry.second.ended || !are_asleep(entry.second); });
+  for (auto& [pair, p] : pair_impulses) p.steps = -1;  // marks sums of earlier solves
 }
 
 void ContactListener::end(int steps) {
-  for (auto& [pair, p] : passed) {
-    if (p.steps <= 0 || !asleep(p)) continue;
+  for (auto& [pair, p] : pair_impulses) {
+    if (p.steps <= 0 || !are_asleep(p)) continue;
     const float scale = static_cast<float>(steps) / static_cast<float>(p.steps);
     p.impulse *= scale, p.moment *= scale, p.weight *= scale;
   }
 }
 
 void ContactListener::EndContact(b2Contact* contact) {
-  if (const auto found = passed.find(pair_of(*contact)); found != passed.end())
+  if (const auto found = pair_impulses.find(pair_of(*contact)); found != pair_impulses.end())
     found->second.ended = true;
 }
 
@@ -59,11 +59,11 @@ void ContactListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impu
     if (bodies_[slot].dynamic())
       bodies_[slot].last_velocity = bodies_[slot].body->GetLinearVelocity();
   }
-  if (!bodies_[a].dynamic()) from_static += sum;
-  if (!bodies_[b].dynamic()) from_static -= sum;
+  if (!bodies_[a].dynamic()) impulse_from_static += sum;
+  if (!bodies_[b].dynamic()) impulse_from_static -= sum;
   if (!bodies_[a].reports_load && !bodies_[b].reports_load) return;
-  Passed& p = passed[{shape_of(first), shape_of(second)}];
-  if (p.steps < 0) p = Passed();  // of a pair that woke up
+  PairImpulse& p = pair_impulses[{shape_of(first), shape_of(second)}];
+  if (p.steps < 0) p = PairImpulse();  // the pair woke up: its old sum is dropped
   p.body_a = a, p.body_b = b;
   p.impulse += sum, p.moment += moment, p.weight += weight;
   ++p.steps;

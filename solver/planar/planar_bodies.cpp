@@ -1,4 +1,3 @@
-// Bodies and shapes come and go.
 #include "solver/planar/planar_bodies.h"
 
 #include <algorithm>
@@ -8,12 +7,12 @@
 
 namespace sunder::solver {
 
-MadeShapes PlanarBodies::make_shapes(std::span<const ShapeDesc> descs, std::uint32_t tag,
-                                     const Vec3& com_R, const Pose& X_WB) const {
-  MadeShapes made;
+ConvertedShapes PlanarBodies::convert_shapes(std::span<const ShapeDesc> descs, std::uint32_t tag,
+                                             const Vec3& com_R, const Pose& X_WB) const {
+  ConvertedShapes converted;
   for (const ShapeDesc& shape : descs) {
     try {
-      made.push_back(planar_shapes(shape, com_R, X_WB, plane_));
+      converted.push_back(planar_shapes(shape, com_R, X_WB, plane_));
     } catch (const InputError& error) {
       throw InputError("shape " + std::to_string(shape.tag) + " of body " + std::to_string(tag) +
                        " " + error.what() +
@@ -21,10 +20,10 @@ MadeShapes PlanarBodies::make_shapes(std::span<const ShapeDesc> descs, std::uint
                        "about a point of that plane, and half-spaces bounded along z");
     }
   }
-  return made;
+  return converted;
 }
 
-std::uint32_t PlanarBodies::add(const BodyDesc& desc, const MadeShapes& made) {
+std::uint32_t PlanarBodies::add(const BodyDesc& desc, const ConvertedShapes& converted) {
   if (free_items_.empty()) {
     free_items_.push_back(static_cast<std::uint32_t>(items.size()));
     items.emplace_back();
@@ -59,12 +58,12 @@ std::uint32_t PlanarBodies::add(const BodyDesc& desc, const MadeShapes& made) {
     body.body->SetMassData(&mass);
   }
   items[slot] = std::move(body);
-  add_shapes(slot, desc.shapes, made);
+  add_shapes(slot, desc.shapes, converted);
   return slot;
 }
 
 void PlanarBodies::add_shapes(std::uint32_t slot, std::span<const ShapeDesc> descs,
-                              const MadeShapes& made) {
+                              const ConvertedShapes& converted) {
   PlanarBody& body = items[slot];
   for (std::size_t i = 0; i < descs.size(); ++i) {
     if (free_shapes_.empty()) {
@@ -75,14 +74,15 @@ void PlanarBodies::add_shapes(std::uint32_t slot, std::span<const ShapeDesc> des
     free_shapes_.pop_back();
     shapes[shape] = {slot, descs[i].tag, {}};
     body.shapes.push_back(shape);
-    for (std::size_t part = 0; part < made[i].size(); ++part) {
+    for (std::size_t part = 0; part < converted[i].size(); ++part) {
       b2FixtureDef def;
-      def.shape = made[i][part].get();
+      def.shape = converted[i][part].get();
       def.friction = static_cast<float>(descs[i].friction);
       def.restitution = static_cast<float>(descs[i].restitution);
-      def.restitutionThreshold = static_cast<float>(plane_.units_per_m * bounce_m_s_);
+      def.restitutionThreshold =
+          static_cast<float>(plane_.units_per_m * restitution_threshold_m_s_);
       def.userData.pointer = std::uintptr_t{shape} << 16 | part;
-      thinnest = std::min(thinnest, width_of(*made[i][part]));
+      min_width = std::min(min_width, width_of(*converted[i][part]));
       shapes[shape].fixtures.push_back(body.body->CreateFixture(&def));
     }
   }
@@ -97,7 +97,7 @@ void PlanarBodies::remove(std::uint32_t slot) {
   free_items_.push_back(slot);
 }
 
-/// Destroying a fixture wakes what touched it.
+/// Removes a shape; DestroyFixture() wakes the bodies in contact with it.
 void PlanarBodies::remove_shape(std::uint32_t slot) {
   PlanarShape& shape = shapes[slot];
   PlanarBody& body = items[shape.body];

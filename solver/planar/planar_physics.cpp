@@ -1,4 +1,4 @@
-// Box2D behind the seam. Read first: replace(), then solve().
+// Implements Physics with Box2D. Read first: replace(), then solve().
 #include "solver/planar/planar_physics.h"
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "engine/base/trigonometry.h"
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
+#include "solver/impact/event_probe.h"
 #include "solver/planar/contact_listener.h"
 #include "solver/planar/planar_reports.h"
 #include "solver/planar/planar_touches.h"
@@ -19,12 +20,14 @@
 namespace sunder::solver {
 namespace {
 
-// Box2D's own, of which it is called well tried.
+// Iterations that the Box2D manual recommends.
 constexpr int kVelocityIterations = 8, kPositionIterations = 3;
-constexpr double kBounce_s = 0.05;    // a contact bounces if faster than falls in this
-constexpr double kFastest_m_s = 1e9;  // as good as infinite
-constexpr float kLeastWay = 0.02f, kMostWay = 0.9f * b2_maxTranslation;  // units a step
-constexpr int kMostSteps = 4096;
+// Duration of a free fall whose final speed is the least closing speed for restitution.
+constexpr double kRestitutionFall_s = 0.05;
+constexpr double kMaxFiniteSpeed_m_s = 1e9;  // speed from which a body counts as not finite
+// Least and greatest motion of a body per Box2D step for which steps are added, in units.
+constexpr float kMinMotionPerStep = 0.02f, kMaxMotionPerStep = 0.9f * b2_maxTranslation;
+constexpr int kMaxBox2DSteps = 4096;
 
 class PlanarPhysics final : public Physics {
  public:
@@ -34,13 +37,16 @@ class PlanarPhysics final : public Physics {
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
-  std::vector<Approach> approaches() override;
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return make_event_probe(std::move(cluster));
+  }
+  std::vector<SpeculativeContact> speculative_contacts() override;
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyStates states() const override { return table_.states(); }
-  std::vector<ContactLoad> contact_loads() const override;
+  std::vector<ContactImpulse> contact_impulses() const override;
   std::vector<float> penetrations() const override { return find_penetrations(world_, plane_); }
   PhysicsInspection inspect() const override {
     return inspect_planar(world_, bodies_.items, plane_, last_h_s_);
@@ -48,16 +54,16 @@ class PlanarPhysics final : public Physics {
   std::vector<WorkItem> take_work() override { return work_.take(); }
 
  private:
-  /// After a change to one body, or to any: what states() shows, and what is near.
-  void note(std::uint32_t slot);
-  void note_all();
+  /// Updates the state of one body, or of all, in table_, and invalidates the contacts.
+  void update_table(std::uint32_t slot);
+  void update_whole_table();
   BodyState state_of(const PlanarBody& body) const;
   Vec3 momentum_Ns() const;
   double kinetic_J() const;
   void step(float h_s, SolveReport& report);
-  void freeze_broken(SolveReport& report);
+  void freeze_not_finite(SolveReport& report);
   int steps_for(double dt_s, int substeps) const;
-  const std::vector<Nearby>& nearby();
+  const std::vector<FixtureContact>& contacts();
   double inverse_mass(const PlanarBody& body, const Vec3& arm_W, const Vec3& normal_W) const;
   Vec3 velocity_at(const PlanarBody& body, const Vec3& point_W) const;
   Vec3 center_W(const PlanarBody& body) const { return plane_.metres(body.body->GetPosition()); }
@@ -73,10 +79,10 @@ class PlanarPhysics final : public Physics {
   PlanarBodies bodies_;
   ContactListener listener_;
   BodyTable table_;
-  std::vector<Nearby> nearby_;
-  bool nearby_known_ = false;
-  double dt_s_ = 0;      ///< Of the last collide.
-  double last_h_s_ = 0;  ///< Of Box2D's last step; 0: there was none.
+  std::vector<FixtureContact> contacts_;
+  bool contacts_valid_ = false;
+  double dt_s_ = 0;      ///< Step of the last collide().
+  double last_h_s_ = 0;  ///< Duration of Box2D's last step; 0 before the first.
   WorkLog work_;
 };
 
@@ -84,7 +90,7 @@ PlanarPhysics::PlanarPhysics(const PlanarOptions& options)
     : options_(options),
       plane_{1 / options.piece_m},
       world_(plane_.units(options.gravity_W)),
-      bodies_(world_, plane_, kBounce_s * options.gravity_W.norm()),
+      bodies_(world_, plane_, kRestitutionFall_s * options.gravity_W.norm()),
       listener_(bodies_.items) {
   SUNDER_CHECK(options.piece_m > 0 && options.gravity_W.z() == 0);
   world_.SetAllowSleeping(options.sleeping);
@@ -95,9 +101,9 @@ PlanarPhysics::PlanarPhysics(const PlanarOptions& options)
 std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
                                            std::span<const BodyDesc> add) {
   check_bodies(add);
-  std::vector<MadeShapes> made;  // before anything changes: it may throw
+  std::vector<ConvertedShapes> converted;  // made before anything changes, because this may throw
   for (const BodyDesc& desc : add) {
-    made.push_back(bodies_.make_shapes(desc.shapes, desc.tag, desc.com_R, desc.X_WB));
+    converted.push_back(bodies_.convert_shapes(desc.shapes, desc.tag, desc.com_R, desc.X_WB));
   }
   for (const BodyId id : remove) {
     at(id);
@@ -106,10 +112,10 @@ std::vector<BodyId> PlanarPhysics::replace(std::span<const BodyId> remove,
   }
   std::vector<BodyId> ids;
   for (std::size_t i = 0; i < add.size(); ++i) {
-    const std::uint32_t slot = bodies_.add(add[i], made[i]);
+    const std::uint32_t slot = bodies_.add(add[i], converted[i]);
     ids.push_back({slot, bodies_.items[slot].generation});
   }
-  note_all();
+  update_whole_table();
   return ids;
 }
 
@@ -117,27 +123,30 @@ void PlanarPhysics::edit(const BodyEdit& edit) {
   PlanarBody& body = at(edit.body);
   SUNDER_CHECK(!body.dynamic() && !body.kinematic());
   check_shapes(edit.added, body.tag);
-  const MadeShapes made = bodies_.make_shapes(edit.added, body.tag, body.com_R, body.X_WB);
+  const ConvertedShapes converted =
+      bodies_.convert_shapes(edit.added, body.tag, body.com_R, body.X_WB);
   for (const std::uint32_t tag : edit.removed_tags) {
     const auto found = std::find_if(body.shapes.begin(), body.shapes.end(),
                                     [&](std::uint32_t s) { return bodies_.shapes[s].tag == tag; });
     SUNDER_CHECK(found != body.shapes.end());
     bodies_.remove_shape(*found);
   }
-  bodies_.add_shapes(edit.body.slot, edit.added, made);
-  note_all();
+  bodies_.add_shapes(edit.body.slot, edit.added, converted);
+  update_whole_table();
 }
 
-/// Box2D finds its contacts when it solves; those who ask before get their own.
+/// Contacts are found when speculative_contacts() or touches() is called; Box2D finds its own in
+/// the solve.
 void PlanarPhysics::collide(double dt_s) {
   dt_s_ = dt_s;
-  nearby_known_ = false;
+  contacts_valid_ = false;
 }
 
-const std::vector<Nearby>& PlanarPhysics::nearby() {
-  if (!nearby_known_) nearby_ = find_nearby(world_, bodies_.items, bodies_.shapes, plane_, dt_s_);
-  nearby_known_ = true;
-  return nearby_;
+const std::vector<FixtureContact>& PlanarPhysics::contacts() {
+  if (!contacts_valid_)
+    contacts_ = find_fixture_contacts(world_, bodies_.items, bodies_.shapes, plane_, dt_s_);
+  contacts_valid_ = true;
+  return contacts_;
 }
 
 Vec3 PlanarPhysics::velocity_at(const PlanarBody& body, const Vec3& point_W) const {
@@ -153,40 +162,41 @@ double PlanarPhysics::inverse_mass(const PlanarBody& body, const Vec3& arm_W,
   return 1 / body.mass_kg + arm * arm / body.inertia_kg_m2;
 }
 
-std::vector<Approach> PlanarPhysics::approaches() {
-  const double still_m_s = FroudeScale(options_.gravity_W).still_m_s(dt_s_);
-  std::vector<Approach> all;
-  for (const Nearby& near : nearby()) {
-    const PlanarBody &a = bodies_.items[near.body_a], &b = bodies_.items[near.body_b];
+std::vector<SpeculativeContact> PlanarPhysics::speculative_contacts() {
+  const double rest_speed_m_s = FroudeScale(options_.gravity_W).rest_speed_m_s(dt_s_);
+  std::vector<SpeculativeContact> all;
+  for (const FixtureContact& contact : contacts()) {
+    const PlanarBody &a = bodies_.items[contact.body_a], &b = bodies_.items[contact.body_b];
     const auto awake = [](const PlanarBody& body) {
       return body.dynamic() && body.body->IsAwake();
     };
     if (!awake(a) && !awake(b)) continue;
     const auto speed_at = [&](const Vec3& point) {
-      return near.normal_W.dot(velocity_at(a, point) - velocity_at(b, point));
+      return contact.normal_W.dot(velocity_at(a, point) - velocity_at(b, point));
     };
-    Approach approach;
+    SpeculativeContact approach;
     int closing = 0;
-    for (int i = 0; i < near.count; ++i) {
-      const double speed = speed_at(near.points_W[i]);
-      if (speed < still_m_s || near.separations_m[i] > speed * dt_s_) continue;
-      approach.separation_m = closing == 0 ? near.separations_m[i]
-                                           : std::min(approach.separation_m, near.separations_m[i]);
-      approach.point_W += near.points_W[i];
+    for (int i = 0; i < contact.count; ++i) {
+      const double speed = speed_at(contact.points_W[i]);
+      if (speed < rest_speed_m_s || contact.separations_m[i] > speed * dt_s_) continue;
+      approach.separation_m = closing == 0
+                                  ? contact.separations_m[i]
+                                  : std::min(approach.separation_m, contact.separations_m[i]);
+      approach.point_W += contact.points_W[i];
       ++closing;
     }
     if (closing == 0) continue;
     approach.point_W /= closing;
-    approach.normal_W = near.normal_W;
+    approach.normal_W = contact.normal_W;
     approach.speed_m_s = speed_at(approach.point_W);
-    const double inverse = inverse_mass(a, approach.point_W - center_W(a), near.normal_W) +
-                           inverse_mass(b, approach.point_W - center_W(b), near.normal_W);
+    const double inverse = inverse_mass(a, approach.point_W - center_W(a), contact.normal_W) +
+                           inverse_mass(b, approach.point_W - center_W(b), contact.normal_W);
     if (approach.speed_m_s <= 0 || inverse <= 0) continue;
     approach.effective_mass_kg = 1 / inverse;
-    approach.a = {near.body_a, a.generation}, approach.b = {near.body_b, b.generation};
+    approach.a = {contact.body_a, a.generation}, approach.b = {contact.body_b, b.generation};
     approach.body_tag_a = a.tag, approach.body_tag_b = b.tag;
-    approach.shape_tag_a = bodies_.shapes[near.shape_a].tag;
-    approach.shape_tag_b = bodies_.shapes[near.shape_b].tag;
+    approach.shape_tag_a = bodies_.shapes[contact.shape_a].tag;
+    approach.shape_tag_b = bodies_.shapes[contact.shape_b].tag;
     all.push_back(approach);
   }
   return all;
@@ -199,19 +209,19 @@ std::vector<Touch> PlanarPhysics::touches(std::span<const BodyId> bodies) {
     wanted.insert(id.slot);
   }
   std::vector<Touch> all;
-  for (const Nearby& near : nearby()) {
-    if (!wanted.contains(near.body_a) && !wanted.contains(near.body_b)) continue;
-    const PlanarBody &a = bodies_.items[near.body_a], &b = bodies_.items[near.body_b];
+  for (const FixtureContact& contact : contacts()) {
+    if (!wanted.contains(contact.body_a) && !wanted.contains(contact.body_b)) continue;
+    const PlanarBody &a = bodies_.items[contact.body_a], &b = bodies_.items[contact.body_b];
     Touch touch;
     touch.body_tag_a = a.tag, touch.body_tag_b = b.tag;
-    touch.shape_tag_a = bodies_.shapes[near.shape_a].tag,
-    touch.shape_tag_b = bodies_.shapes[near.shape_b].tag;
-    touch.normal_W = near.normal_W;
-    for (int i = 0; i < near.count; ++i) {
-      const Vec3 half_gap = 0.5 * near.separations_m[i] * near.normal_W;
-      touch.arm_a_W = near.points_W[i] - half_gap - center_W(a);
-      touch.arm_b_W = near.points_W[i] + half_gap - center_W(b);
-      touch.separation_m = near.separations_m[i];
+    touch.shape_tag_a = bodies_.shapes[contact.shape_a].tag,
+    touch.shape_tag_b = bodies_.shapes[contact.shape_b].tag;
+    touch.normal_W = contact.normal_W;
+    for (int i = 0; i < contact.count; ++i) {
+      const Vec3 half_gap = 0.5 * contact.separations_m[i] * contact.normal_W;
+      touch.arm_a_W = contact.points_W[i] - half_gap - center_W(a);
+      touch.arm_b_W = contact.points_W[i] + half_gap - center_W(b);
+      touch.separation_m = contact.separations_m[i];
       all.push_back(touch);
     }
   }
@@ -227,14 +237,14 @@ void PlanarPhysics::set_state(BodyId id, const BodyState& state) {
   body.body->SetLinearVelocity(plane_.units(state.velocity_W));
   body.body->SetAngularVelocity(static_cast<float>(state.angular_velocity_W.z()));
   body.body->SetAwake(true);
-  note(id.slot);
+  update_table(id.slot);
 }
 
 void PlanarPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& point_W) {
   PlanarBody& body = at(id);
   if (!body.dynamic()) return;
   body.body->ApplyLinearImpulse(plane_.units(impulse_W), plane_.units(point_W), true);
-  note(id.slot);
+  update_table(id.slot);
 }
 
 SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
@@ -242,15 +252,15 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   WorkSpan span(work_, Stage::kSolve, "contacts in Box2D");
   SolveReport report;
   report.momentum_before_Ns = momentum_Ns();
-  freeze_broken(report);
+  freeze_not_finite(report);
   const double before_J = kinetic_J();
   const int steps = steps_for(dt_s, substeps);
   listener_.begin();
   for (int i = 0; i < steps; ++i) step(static_cast<float>(dt_s / steps), report);
   listener_.end(steps);
   last_h_s_ = dt_s / steps;
-  freeze_broken(report);
-  report.external_impulse_Ns += plane_.metres(listener_.from_static);
+  freeze_not_finite(report);
+  report.external_impulse_Ns += plane_.metres(listener_.impulse_from_static);
   for (const b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
     if (!c->IsTouching()) continue;
     ++report.contacts;
@@ -262,25 +272,26 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   }
   report.momentum_after_Ns = momentum_Ns();
   report.energy.contacts = before_J + report.energy.gravity - kinetic_J();
-  note_all();
+  update_whole_table();
   span.count(report.contacts);
   return report;
 }
 
-/// In one of Box2D's steps no body may move further than half the thinnest, or it could pass
-/// through; nor as far as Box2D would stop it.
+/// Returns the Box2D steps, at most kMaxBox2DSteps or `substeps`, in which no body moves farther
+/// than half the least width of a shape, so that none tunnels, nor Box2D's own limit.
 int PlanarPhysics::steps_for(double dt_s, int substeps) const {
   double fastest = 0;  // units/s
   for (const PlanarBody& body : bodies_.items) {
     if (!body.dynamic() && !body.kinematic()) continue;
     fastest = std::max(fastest, static_cast<double>(body.body->GetLinearVelocity().Length()));
   }
-  const float way = std::clamp(0.5f * bodies_.thinnest, kLeastWay, kMostWay);
-  const double wanted = fastest * dt_s / static_cast<double>(way);
-  return std::max(substeps, static_cast<int>(std::ceil(std::min<double>(wanted, kMostSteps))));
+  const float motion = std::clamp(0.5f * bodies_.min_width, kMinMotionPerStep, kMaxMotionPerStep);
+  const double wanted = fastest * dt_s / static_cast<double>(motion);
+  return std::max(substeps, static_cast<int>(std::ceil(std::min<double>(wanted, kMaxBox2DSteps))));
 }
 
-/// Gravity pulls what is awake before or after; what falls asleep loses what speed it had.
+/// Runs one Box2D step and adds the impulse and work of gravity on bodies that are awake before or
+/// after it, and the momentum that bodies lose by falling asleep, to the report.
 void PlanarPhysics::step(float h_s, SolveReport& report) {
   std::vector<std::uint8_t> awake(bodies_.items.size());
   for (std::size_t i = 0; i < bodies_.items.size(); ++i) {
@@ -305,27 +316,27 @@ void PlanarPhysics::step(float h_s, SolveReport& report) {
   }
 }
 
-void PlanarPhysics::freeze_broken(SolveReport& report) {
+void PlanarPhysics::freeze_not_finite(SolveReport& report) {
   for (PlanarBody& body : bodies_.items) {
     if (!body.dynamic()) continue;
     const b2Vec2 v = body.body->GetLinearVelocity();
     const float w = body.body->GetAngularVelocity();
-    const auto most = static_cast<float>(plane_.units_per_m * kFastest_m_s);
+    const auto most = static_cast<float>(plane_.units_per_m * kMaxFiniteSpeed_m_s);
     if (std::abs(v.x) < most && std::abs(v.y) < most && std::abs(w) < most &&
         body.body->GetPosition().IsValid()) {
       continue;
     }
     if (!body.body->GetPosition().IsValid()) body.body->SetTransform(b2Vec2(0, 0), 0);
     if (v.IsValid()) report.external_impulse_Ns -= body.mass_kg * plane_.metres(v);
-    body.body->SetType(b2_staticBody);  // and stops it
+    body.body->SetType(b2_staticBody);  // also stops the body
     body.frozen = true;
     ++report.frozen;
   }
 }
 
-void PlanarPhysics::note(std::uint32_t slot) {
+void PlanarPhysics::update_table(std::uint32_t slot) {
   const PlanarBody& body = bodies_.items[slot];
-  nearby_known_ = false;
+  contacts_valid_ = false;
   if (!body.body) return;
   const BodyState state = state_of(body);
   const BodyMode mode = body.frozen        ? BodyMode::kFrozen
@@ -336,9 +347,9 @@ void PlanarPhysics::note(std::uint32_t slot) {
   table_.set({slot, body.generation}, mode, state);
 }
 
-void PlanarPhysics::note_all() {
-  nearby_known_ = false;
-  for (std::uint32_t slot = 0; slot < bodies_.items.size(); ++slot) note(slot);
+void PlanarPhysics::update_whole_table() {
+  contacts_valid_ = false;
+  for (std::uint32_t slot = 0; slot < bodies_.items.size(); ++slot) update_table(slot);
 }
 
 Vec3 PlanarPhysics::momentum_Ns() const {
@@ -374,9 +385,9 @@ BodyState PlanarPhysics::state_of(const PlanarBody& body) const {
   return state;
 }
 
-std::vector<ContactLoad> PlanarPhysics::contact_loads() const {
-  std::vector<ContactLoad> loads;
-  for (const auto& [pair, p] : listener_.passed) {
+std::vector<ContactImpulse> PlanarPhysics::contact_impulses() const {
+  std::vector<ContactImpulse> loads;
+  for (const auto& [pair, p] : listener_.pair_impulses) {
     if (p.weight <= 0) continue;
     const Vec3 impulse = plane_.metres(p.impulse), point = plane_.metres((1 / p.weight) * p.moment);
     for (const bool on_b : {false, true}) {

@@ -6,8 +6,8 @@
 namespace sunder::solver {
 namespace {
 
-/// A contact point that carries load.
-struct Loaded {
+/// A contact point with a positive normal impulse.
+struct LoadedPoint {
   const b2Contact& contact;
   const b2WorldManifold& manifold;
   int point = 0;
@@ -20,12 +20,12 @@ void for_each_loaded(const b2World& world, const Use& use) {
     b2WorldManifold manifold;
     c->GetWorldManifold(&manifold);
     for (int i = 0; i < c->GetManifold()->pointCount; ++i) {
-      if (c->GetManifold()->points[i].normalImpulse > 0) use(Loaded{*c, manifold, i});
+      if (c->GetManifold()->points[i].normalImpulse > 0) use(LoadedPoint{*c, manifold, i});
     }
   }
 }
 
-/// Of the body a fixture is of.
+/// Returns the body of a fixture.
 const PlanarBody& owner(const b2Fixture& fixture, std::span<const PlanarBody> bodies) {
   return bodies[body_of(const_cast<b2Fixture&>(fixture).GetBody())];
 }
@@ -34,7 +34,7 @@ const PlanarBody& owner(const b2Fixture& fixture, std::span<const PlanarBody> bo
 
 std::vector<float> find_penetrations(const b2World& world, const Plane2& plane) {
   std::vector<float> depths;
-  for_each_loaded(world, [&](const Loaded& at) {
+  for_each_loaded(world, [&](const LoadedPoint& at) {
     const double units = -static_cast<double>(at.manifold.separations[at.point] + kSlop);
     depths.push_back(static_cast<float>(std::max(0.0, units / plane.units_per_m)));
   });
@@ -46,11 +46,11 @@ PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBod
   PhysicsInspection seen;
   struct Keyed {
     std::uint64_t key_a, key_b;
-    PressPoint press;
+    ContactForce press;
   };
-  std::vector<Keyed> presses;
+  std::vector<Keyed> contact_forces;
   if (h_s > 0) {
-    for_each_loaded(world, [&](const Loaded& at) {
+    for_each_loaded(world, [&](const LoadedPoint& at) {
       const b2Fixture &a = *at.contact.GetFixtureA(), &b = *at.contact.GetFixtureB();
       const b2ManifoldPoint& point = at.contact.GetManifold()->points[at.point];
       const b2Vec2& normal = at.manifold.normal;
@@ -58,20 +58,21 @@ PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBod
           point.normalImpulse * normal + point.tangentImpulse * b2Cross(normal, 1.f);
       const PlanarBody &body_a = owner(a, bodies), &body_b = owner(b, bodies);
       const double z = (body_a.dynamic() ? body_a : body_b).X_WB.position.z();
-      presses.push_back({key_of(&a),
-                         key_of(&b),
-                         {body_a.tag, body_b.tag, plane.metres(at.manifold.points[at.point], z),
-                          plane.metres(impulse) / h_s}});
+      contact_forces.push_back(
+          {key_of(&a),
+           key_of(&b),
+           {body_a.tag, body_b.tag, plane.metres(at.manifold.points[at.point], z),
+            plane.metres(impulse) / h_s}});
     });
   }
-  // Box2D's list is in no order that lasts.
-  std::ranges::stable_sort(presses, {},
+  // Sorted, because the order of Box2D's contact list is not reproducible.
+  std::ranges::stable_sort(contact_forces, {},
                            [](const Keyed& k) { return std::tuple(k.key_a, k.key_b); });
-  for (const Keyed& one : presses) seen.presses.push_back(one.press);
+  for (const Keyed& one : contact_forces) seen.contact_forces.push_back(one.press);
   for (const PlanarBody& body : bodies) {
     if (!body.body) continue;
     for (const b2Fixture* f = body.body->GetFixtureList(); f; f = f->GetNext()) {
-      if (f->GetType() == b2Shape::e_edge) continue;  // the ground, without end
+      if (f->GetType() == b2Shape::e_edge) continue;  // the ground, which is unbounded
       const b2AABB& box = f->GetAABB(0);
       const double z = body.X_WB.position.z();
       seen.boxes.push_back(

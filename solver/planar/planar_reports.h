@@ -1,4 +1,4 @@
-// What Box2D's contacts are after its last step, for statistics and debug views.
+// Reports on Box2D's contacts after its last step, for statistics and debug views.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace sunder::solver {
 
-/// See Physics::penetrations().
+/// Implements Physics::penetrations().
 std::vector<float> find_penetrations(const b2World& world, const Plane2& plane);
-/// See Physics::inspect(); `h_s` is that of the last step, 0: there was none.
+/// Implements Physics::inspect(); `h_s` is the duration of Box2D's last step, 0 before the first.
 PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBody> bodies,
                                  const Plane2& plane, double h_s);
 

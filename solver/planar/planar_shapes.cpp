@@ -9,8 +9,10 @@
 namespace sunder::solver {
 namespace {
 
-constexpr double kFlat = 1e-6;            // off the plane, of the size
-constexpr float kHalfSpaceHalf = 5000.f;  // units to either side: as far as floats are exact enough
+// Tolerance for centres and normals off the plane, as a fraction of the radius or of unit length.
+constexpr double kPlanarTolerance = 1e-6;
+// Half the length of the edge of a half-space, in units; floats are not precise enough beyond.
+constexpr float kHalfEdgeLength = 5000.f;
 
 b2Vec2 centroid_of(const b2Vec2* points, int count) {
   b2Vec2 sum(0, 0);
@@ -24,7 +26,7 @@ b2Vec2 centroid_of(const b2Vec2* points, int count) {
   return points[0] + (1 / area) * sum;
 }
 
-/// Filled by hand: b2PolygonShape::Set() would weld corners that are near each other in units.
+/// Makes a polygon without b2PolygonShape::Set(), which welds corners that are close in units.
 std::unique_ptr<b2Shape> make_polygon(const std::vector<b2Vec2>& corners) {
   auto polygon = std::make_unique<b2PolygonShape>();
   polygon->m_count = static_cast<int32>(corners.size());
@@ -38,10 +40,10 @@ std::unique_ptr<b2Shape> make_polygon(const std::vector<b2Vec2>& corners) {
   return polygon;
 }
 
-using Made = std::vector<std::unique_ptr<b2Shape>>;
+using ShapeList = std::vector<std::unique_ptr<b2Shape>>;
 
-Made make_polygons(const ConvexPolyhedron& hull, const Vec3& com_R, const Pose& X_WB,
-                   const Plane2& plane) {
+ShapeList make_polygons(const ConvexPolyhedron& hull, const Vec3& com_R, const Pose& X_WB,
+                        const Plane2& plane) {
   const std::optional<ZPrism> prism =
       prism_along_z(hull, {X_WB.rotation * Vec3(-com_R), X_WB.rotation});
   if (!prism) throw InputError("is no prism along z");
@@ -52,7 +54,7 @@ Made make_polygons(const ConvexPolyhedron& hull, const Vec3& com_R, const Pose& 
   for (const Vec2& corner : prism->outline) {
     corners.push_back(plane.units(Vec3(corner.x(), corner.y(), 0)));
   }
-  Made made;
+  ShapeList made;
   constexpr std::size_t kMost = b2_maxPolygonVertices;
   for (std::size_t first = 1; first + 1 < corners.size(); first += kMost - 2) {
     const std::size_t last = std::min(first + kMost - 2, corners.size() - 1);
@@ -63,30 +65,33 @@ Made make_polygons(const ConvexPolyhedron& hull, const Vec3& com_R, const Pose& 
   return made;
 }
 
-Made make_circle(const ShapeDesc& shape, const Vec3& com_R, const Pose& X_WB, const Plane2& plane) {
+ShapeList make_circle(const ShapeDesc& shape, const Vec3& com_R, const Pose& X_WB,
+                      const Plane2& plane) {
   const Vec3 center = X_WB.rotation * (shape.center_R - com_R);
-  if (std::abs(center.z() + X_WB.position.z()) > kFlat * shape.radius_m) {
+  if (std::abs(center.z() + X_WB.position.z()) > kPlanarTolerance * shape.radius_m) {
     throw InputError("is a sphere whose centre is off the plane z = 0");
   }
   auto circle = std::make_unique<b2CircleShape>();
   circle->m_p = plane.units(center);
   circle->m_radius = static_cast<float>(plane.units_per_m * shape.radius_m) + kSkin;
-  Made made;
+  ShapeList made;
   made.push_back(std::move(circle));
   return made;
 }
 
-Made make_edge(const ShapeDesc& shape, const Vec3& com_R, const Pose& X_WB, const Plane2& plane) {
+ShapeList make_edge(const ShapeDesc& shape, const Vec3& com_R, const Pose& X_WB,
+                    const Plane2& plane) {
   const Vec3 normal = X_WB.rotation * shape.normal_R.normalized();
-  if (std::abs(normal.z()) > kFlat) throw InputError("is a half-space that leans out of the plane");
+  if (std::abs(normal.z()) > kPlanarTolerance)
+    throw InputError("is a half-space that leans out of the plane");
   const b2Vec2 out(static_cast<float>(normal.x()), static_cast<float>(normal.y()));
   const Vec3 center = X_WB.rotation * (shape.center_R - com_R);
   const b2Vec2 foot = plane.units(normal.dot(center) * normal);
-  const b2Vec2 along = kHalfSpaceHalf * b2Vec2(-out.y, out.x);
+  const b2Vec2 along = kHalfEdgeLength * b2Vec2(-out.y, out.x);
   auto edge = std::make_unique<b2EdgeShape>();
   edge->SetOneSided(foot - 2 * along, foot - along, foot + along, foot + 2 * along);
   edge->m_radius = kSkin;
-  Made made;
+  ShapeList made;
   made.push_back(std::move(edge));
   return made;
 }

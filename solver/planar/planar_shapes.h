@@ -1,8 +1,8 @@
-// Three dimensions become two: shapes of the seam as Box2D's.
+// Conversion of shapes in three dimensions to Box2D shapes.
 //
-// Box2D keeps shapes apart by a skin of two slops each, and lets contacts close to one slop within
+// Box2D gives each shape a skin (radius) of two slops and lets contacts settle at one slop within
 // both skins. All shapes get a skin of half a slop here, so that resting faces meet exactly and
-// corners stay sharp; Box2D's continuous collision needs thicker skins, and is not used.
+// corners stay sharp. Box2D's continuous collision needs thicker skins and is not used.
 #pragma once
 
 #include <memory>
@@ -14,9 +14,9 @@
 
 namespace sunder::solver {
 
-inline constexpr float kSkin = 0.5f * b2_linearSlop;  ///< Of every shape, in units.
+inline constexpr float kSkin = 0.5f * b2_linearSlop;  ///< Skin of every shape, in units.
 
-/// Between metres in three dimensions and units in the plane.
+/// Conversion between metres in three dimensions and Box2D units in the plane.
 struct Plane2 {
   double units_per_m = 1;
 
@@ -30,13 +30,13 @@ struct Plane2 {
   }
 };
 
-/// The shapes in the plane that one shape of a body becomes: a polygon of more than eight corners
-/// is several. Throws InputError if it cannot be planar. B is placed in W as `X_WB`; the result is
-/// in B turned by `X_WB`'s rotation.
+/// Converts one shape of a body at pose `X_WB` to Box2D shapes: a polygon of more than eight
+/// corners becomes several. The result is in B, rotated by the rotation of `X_WB`. Throws
+/// InputError if the shape is not planar.
 std::vector<std::unique_ptr<b2Shape>> planar_shapes(const ShapeDesc& shape, const Vec3& com_R,
                                                     const Pose& X_WB, const Plane2& plane);
 
-/// The least width of a shape in units; infinite for the edge of a half-space.
+/// Returns the least width of a shape in units; b2_maxFloat for the edge of a half-space.
 float width_of(const b2Shape& shape);
 
 }  // namespace sunder::solver

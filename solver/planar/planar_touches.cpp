@@ -7,8 +7,8 @@
 namespace sunder::solver {
 namespace {
 
-/// How far any point of a fixture may come within a step, in units.
-float way_of(const b2Fixture& fixture, float dt_s) {
+/// Returns an upper bound of the motion of any point of a fixture in a step, in units.
+float max_motion_of(const b2Fixture& fixture, float dt_s) {
   const b2Body& body = *const_cast<b2Fixture&>(fixture).GetBody();
   if (body.GetType() != b2_dynamicBody) return 0;
   b2AABB box;
@@ -26,22 +26,22 @@ struct FindFixtures final : b2QueryCallback {
   std::vector<b2Fixture*> found;
 };
 
-/// Edges before polygons before circles, as Box2D wants them.
+/// Returns the order in which Box2D's collide functions take the kinds of shapes.
 int rank(const b2Fixture* fixture) {
   return fixture->GetType() == b2Shape::e_edge     ? 0
          : fixture->GetType() == b2Shape::e_circle ? 2
                                                    : 1;
 }
 
-/// A copy of the fixture's shape with a skin so much thicker.
+/// Returns a copy of the fixture's shape with its skin thicker by `by` units.
 template <class Shape>
-Shape thicker(const b2Fixture* fixture, float by) {
+Shape with_thicker_skin(const b2Fixture* fixture, float by) {
   Shape shape = *static_cast<const Shape*>(fixture->GetShape());
   shape.m_radius += by;
   return shape;
 }
 
-/// Contact points of two fixtures, rank(a) <= rank(b), as far as `reach` apart.
+/// Returns the manifold of two fixtures, rank(a) <= rank(b), with points up to `reach` apart.
 b2Manifold collide(const b2Fixture* a, const b2Fixture* b, float reach) {
   b2Manifold m;
   m.pointCount = 0;
@@ -54,21 +54,25 @@ b2Manifold collide(const b2Fixture* a, const b2Fixture* b, float reach) {
   using Circle = b2CircleShape;
   switch (3 * rank(a) + rank(b)) {
     case 1:
-      with(b2CollideEdgeAndPolygon, thicker<Edge>(a, reach), thicker<Polygon>(b, 0));
+      with(b2CollideEdgeAndPolygon, with_thicker_skin<Edge>(a, reach),
+           with_thicker_skin<Polygon>(b, 0));
       break;
     case 2:
-      with(b2CollideEdgeAndCircle, thicker<Edge>(a, reach), thicker<Circle>(b, 0));
+      with(b2CollideEdgeAndCircle, with_thicker_skin<Edge>(a, reach),
+           with_thicker_skin<Circle>(b, 0));
       break;
     case 4:
-      with(b2CollidePolygons, thicker<Polygon>(a, reach), thicker<Polygon>(b, 0));
+      with(b2CollidePolygons, with_thicker_skin<Polygon>(a, reach),
+           with_thicker_skin<Polygon>(b, 0));
       break;
     case 5:
-      with(b2CollidePolygonAndCircle, thicker<Polygon>(a, reach), thicker<Circle>(b, 0));
+      with(b2CollidePolygonAndCircle, with_thicker_skin<Polygon>(a, reach),
+           with_thicker_skin<Circle>(b, 0));
       break;
     case 8:
-      with(b2CollideCircles, thicker<Circle>(a, reach), thicker<Circle>(b, 0));
+      with(b2CollideCircles, with_thicker_skin<Circle>(a, reach), with_thicker_skin<Circle>(b, 0));
       break;
-    default:  // edges are static: they never meet
+    default:  // two edges: both are static
       break;
   }
   return m;
@@ -76,7 +80,8 @@ b2Manifold collide(const b2Fixture* a, const b2Fixture* b, float reach) {
 
 using FixturePair = std::pair<b2Fixture*, b2Fixture*>;
 
-bool make_nearby(const FixturePair& pair, const Plane2& plane, float reach, Nearby& near) {
+bool find_contact(const FixturePair& pair, const Plane2& plane, float reach,
+                  FixtureContact& contact) {
   auto [a, b] = pair;
   const bool swapped = rank(a) > rank(b);
   if (swapped) std::swap(a, b);
@@ -86,32 +91,33 @@ bool make_nearby(const FixturePair& pair, const Plane2& plane, float reach, Near
   world.Initialize(&m, a->GetBody()->GetTransform(), a->GetShape()->m_radius,
                    b->GetBody()->GetTransform(), b->GetShape()->m_radius);
   const float sign = swapped ? -1.f : 1.f;
-  near.key_a = key_of(pair.first), near.key_b = key_of(pair.second);
-  near.shape_a = shape_of(pair.first), near.shape_b = shape_of(pair.second);
-  near.body_a = body_of(pair.first->GetBody()), near.body_b = body_of(pair.second->GetBody());
-  near.normal_W =
+  contact.key_a = key_of(pair.first), contact.key_b = key_of(pair.second);
+  contact.shape_a = shape_of(pair.first), contact.shape_b = shape_of(pair.second);
+  contact.body_a = body_of(pair.first->GetBody()), contact.body_b = body_of(pair.second->GetBody());
+  contact.normal_W =
       Vec3(double{sign * world.normal.x}, double{sign * world.normal.y}, 0).normalized();
-  near.count = m.pointCount;
+  contact.count = m.pointCount;
   for (int i = 0; i < m.pointCount; ++i) {
-    near.points_W[i] = plane.metres(world.points[i]);
-    near.separations_m[i] = double{world.separations[i] + kSlop} / plane.units_per_m;
+    contact.points_W[i] = plane.metres(world.points[i]);
+    contact.separations_m[i] = double{world.separations[i] + kSlop} / plane.units_per_m;
   }
   return true;
 }
 
 }  // namespace
 
-std::vector<Nearby> find_nearby(const b2World& world, std::span<const PlanarBody> bodies,
-                                std::span<const PlanarShape> shapes, const Plane2& plane,
-                                double dt_s) {
+std::vector<FixtureContact> find_fixture_contacts(const b2World& world,
+                                                  std::span<const PlanarBody> bodies,
+                                                  std::span<const PlanarShape> shapes,
+                                                  const Plane2& plane, double dt_s) {
   const auto dt = static_cast<float>(dt_s);
   std::vector<FixturePair> pairs;
   for (const PlanarBody& body : bodies) {
     if (!body.dynamic()) continue;
     for (const std::uint32_t shape : body.shapes) {
       for (b2Fixture* fixture : shapes[shape].fixtures) {
-        // What moves more finds the other, wherever the two would meet.
-        const float margin = 2 * way_of(*fixture, dt) + kSlop;
+        // Twice the own motion suffices: of any pair, the fixture that moves more finds the other.
+        const float margin = 2 * max_motion_of(*fixture, dt) + kSlop;
         FindFixtures query;
         b2AABB box;
         fixture->GetShape()->ComputeAABB(&box, body.body->GetTransform(), 0);
@@ -132,11 +138,11 @@ std::vector<Nearby> find_nearby(const b2World& world, std::span<const PlanarBody
   std::sort(pairs.begin(), pairs.end(),
             [&](const FixturePair& p, const FixturePair& q) { return keys(p) < keys(q); });
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  std::vector<Nearby> all;
+  std::vector<FixtureContact> all;
   for (const FixturePair& pair : pairs) {
-    Nearby near;
-    const float reach = way_of(*pair.first, dt) + way_of(*pair.second, dt) + kSlop;
-    if (make_nearby(pair, plane, reach, near)) all.push_back(near);
+    FixtureContact contact;
+    const float reach = max_motion_of(*pair.first, dt) + max_motion_of(*pair.second, dt) + kSlop;
+    if (find_contact(pair, plane, reach, contact)) all.push_back(contact);
   }
   return all;
 }

@@ -1,4 +1,4 @@
-// What touches, or would within a step: for those who ask before the solve.
+// Contacts between fixtures, including speculative ones, before the solve.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,21 @@
 
 namespace sunder::solver {
 
-/// Contact points of two fixtures.
-struct Nearby {
-  std::uint64_t key_a = 0, key_b = 0;      ///< Of the fixtures.
-  std::uint32_t body_a = 0, body_b = 0;    ///< Slots.
-  std::uint32_t shape_a = 0, shape_b = 0;  ///< Slots.
-  Vec3 normal_W = Vec3::UnitY();           ///< Unit, from a to b.
-  int count = 0;
-  Vec3 points_W[2];  ///< In the middle of the gap; at z = 0.
+/// Contact of two fixtures, with one or two points.
+struct FixtureContact {
+  std::uint64_t key_a = 0, key_b = 0;      ///< Keys of the fixtures; key_a < key_b.
+  std::uint32_t body_a = 0, body_b = 0;    ///< Slots of the bodies.
+  std::uint32_t shape_a = 0, shape_b = 0;  ///< Slots of the shapes.
+  Vec3 normal_W = Vec3::UnitY();           ///< Unit normal from a to b.
+  int count = 0;                           ///< Number of points.
+  Vec3 points_W[2];                        ///< Midpoints of the gap, at z = 0.
   double separations_m[2] = {};
 };
 
-/// All that are near enough to touch within dt_s as they move now; in order of keys.
-std::vector<Nearby> find_nearby(const b2World& world, std::span<const PlanarBody> bodies,
-                                std::span<const PlanarShape> shapes, const Plane2& plane,
-                                double dt_s);
+/// Returns all contacts that may close within dt_s at current velocities, in order of keys.
+std::vector<FixtureContact> find_fixture_contacts(const b2World& world,
+                                                  std::span<const PlanarBody> bodies,
+                                                  std::span<const PlanarShape> shapes,
+                                                  const Plane2& plane, double dt_s);
 
 }  // namespace sunder::solver

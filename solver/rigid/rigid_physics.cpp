@@ -1,4 +1,5 @@
-// The rigid solver behind the seam. Read first: collide() and solve(), the lists of their stages.
+// Implements Physics by the rigid solver. Read first: collide() and solve(), which list their
+// stages.
 #include "solver/rigid/rigid_physics.h"
 
 #include <algorithm>
@@ -9,22 +10,23 @@
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
+#include "solver/impact/event_probe.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/paused.h"
 #include "solver/rigid/body/step_context.h"
-#include "solver/rigid/collide/approach.h"
 #include "solver/rigid/collide/broad_phase.h"
 #include "solver/rigid/collide/contacts.h"
-#include "solver/rigid/collide/crowd.h"
+#include "solver/rigid/collide/dense_clusters.h"
 #include "solver/rigid/collide/narrow_phase.h"
+#include "solver/rigid/collide/speculative_contacts.h"
 #include "solver/rigid/contact/contact_reports.h"
 #include "solver/rigid/contact/contact_solver.h"
 #include "solver/rigid/contact/static_warm_start.h"
 #include "solver/rigid/joint/joint.h"
 #include "solver/rigid/sleep.h"
 #include "solver/rigid/step_energy.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -33,7 +35,8 @@ class RigidPhysics final : public Physics {
  public:
   explicit RigidPhysics(const RigidOptions& options)
       : options_(options),
-        contact_solver_({options.sweeps, kAccelerates && options.accelerated, options.lanes}),
+        contact_solver_(
+            {options.sweeps, kUsesConjugateGradients && options.accelerated, options.lanes}),
         step_(options.gravity_W, 0) {
     SUNDER_CHECK(options.max_colors >= 0 && options.max_colors <= kMaxColors);
     SUNDER_CHECK(options.sweeps > 0 && options.lanes >= 0);
@@ -44,8 +47,11 @@ class RigidPhysics final : public Physics {
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;
   void collide(double dt_s) override;
-  std::vector<Approach> approaches() override {
-    return approaches_.find(contacts_, bodies_, shapes_, step_);
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return make_event_probe(std::move(cluster));
+  }
+  std::vector<SpeculativeContact> speculative_contacts() override {
+    return speculative_contacts_.find(contacts_, bodies_, shapes_, step_);
   }
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   std::vector<TouchingBodies> touching(std::span<const BodyId> bodies) override;
@@ -60,21 +66,22 @@ class RigidPhysics final : public Physics {
     joints_.strengthen(joint, strength);
   }
   void cut(JointId joint) override {
-    sleep_.wake_held(joints_.at(joint), options_.gravity_W, contacts_, bodies_);
+    sleep_.wake_joined(joints_.at(joint), options_.gravity_W, contacts_, bodies_);
     joints_.cut(joint, bodies_);
   }
   std::vector<JointId> take_broken() override { return joints_.take_broken(); }
   void pause(std::span<const BodyId> bodies) override;
   SolveReport solve(double dt_s, int substeps) override;
   BodyStates states() const override { return bodies_.states(); }
-  std::vector<ContactLoad> contact_loads() const override {
-    return find_contact_loads(contacts_, bodies_, shapes_);
+  std::vector<ContactImpulse> contact_impulses() const override {
+    return find_contact_impulses(contacts_, bodies_, shapes_);
   }
-  std::vector<JointLoad> joint_loads() const override { return joints_.loads(bodies_); }
-  std::vector<JointFlow> joint_flows() const override { return joints_.flows(); }
+  std::vector<JointImpulse> joint_impulses() const override { return joints_.loads(bodies_); }
+  std::vector<PlasticFlow> plastic_flows() const override { return joints_.flows(); }
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
   PhysicsInspection inspect() const override {
-    return {find_presses(contacts_, bodies_, last_h_s_), broad_phase_.boxes(shapes_, bodies_)};
+    return {find_contact_forces(contacts_, bodies_, last_h_s_),
+            broad_phase_.boxes(shapes_, bodies_)};
   }
   std::vector<WorkItem> take_work() override { return work_.take(); }
 
@@ -87,7 +94,7 @@ class RigidPhysics final : public Physics {
   ContactSolveReport solve_contacts(const StepContext& step);
   Vec3 freeze_broken();
   const ContactsOfBodies& contacts_of_bodies();
-  void look_again(JointId joint);
+  void retest_pairs_of(JointId joint);
 
   RigidOptions options_;
   Bodies bodies_;
@@ -95,17 +102,18 @@ class RigidPhysics final : public Physics {
   Contacts contacts_;
   Joints joints_;
   BroadPhase broad_phase_;
-  std::vector<ContactChanges> changes_;  ///< By chunk of pairs.
-  Crowd crowd_;
+  std::vector<ContactChanges> changes_;  ///< Contact changes by chunk of pairs.
+  DenseClusters dense_clusters_;
   Sleep sleep_;
   ContactSolver contact_solver_;
   StaticWarmStart static_warm_start_;
-  Approaches approaches_;
+  SpeculativeContacts speculative_contacts_;
   ContactsOfBodies contacts_of_bodies_;
   Paused paused_;
-  StepContext step_;          ///< Of the last collide.
-  double last_h_s_ = 0;       ///< Of the impulses that contacts and joints keep; 0: none.
-  std::uint32_t frozen_ = 0;  ///< Since the last solve began.
+  StepContext step_;  ///< Context of the last collide().
+  /// Length of the substep that the stored impulses are from; 0: no impulses stored.
+  double last_h_s_ = 0;
+  std::uint32_t frozen_ = 0;  ///< Number of bodies frozen since the last solve began.
   ByBody<StepReach> reach_;
   WorkLog work_;
 };
@@ -136,9 +144,9 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
   }
   remove_shapes(shapes);
   for (const BodyId id : ids) {
-    const BodySlot body = bodies_.slot(id);  // each once
-    sleep_.wake_held(joints_.all(), body, options_.gravity_W, contacts_, bodies_);
-    joints_.lose(body, bodies_);
+    const BodySlot body = bodies_.slot(id);  // fails for an id given twice
+    sleep_.wake_joined(joints_.all(), body, options_.gravity_W, contacts_, bodies_);
+    joints_.detach(body, bodies_);
     bodies_.remove(body);
     contacts_.body_colors[body] = 0;
   }
@@ -149,10 +157,10 @@ void RigidPhysics::remove_shapes(std::span<const ShapeSlot> shapes) {
   std::vector<ManifoldSlot> manifolds;
   for (const PairSlot pair : pairs)
     if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
-  sleep_.wake_left(manifolds, options_.gravity_W, contacts_, bodies_);
+  sleep_.wake_unsupported(manifolds, options_.gravity_W, contacts_, bodies_);
   contacts_of_bodies_.clear();
   for (const PairSlot pair : pairs) {
-    approaches_.forget(contacts_.pairs[pair]);
+    speculative_contacts_.invalidate(contacts_.pairs[pair]);
     contacts_.remove(pair);
   }
   broad_phase_.remove(shapes);
@@ -177,7 +185,7 @@ void RigidPhysics::collide(double dt_s) {
   find_near();
   update_contacts();
   sleep_.wake_hit(step_, contacts_, bodies_);
-  sleep_.wake_carried(options_.gravity_W, contacts_, bodies_);
+  sleep_.wake_on_kinematic(options_.gravity_W, contacts_, bodies_);
   contacts_of_bodies_.clear();
 }
 
@@ -199,8 +207,8 @@ void RigidPhysics::find_reaches() {
   });
 }
 
-/// Narrow phase over pairs of which a body changed; then, in order of slots, what came to touch
-/// gets a manifold and what drifted apart goes.
+/// Runs the narrow phase over pairs with a body that changed. Then, in order of slots, adds a
+/// manifold for each pair that began to touch, and removes pairs that moved apart.
 void RigidPhysics::update_contacts() {
   constexpr std::size_t kChunk = 1024;
   WorkSpan span(work_, Stage::kCollide, "pairs looked at");
@@ -217,36 +225,37 @@ void RigidPhysics::update_contacts() {
       Pair& pair = pairs[i];
       prefetch_pairs(i, PairSlot(end), contacts_, shapes_, bodies_);
       if (!pair.present()) continue;
-      if (!pair.fresh && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b]) continue;
+      if (!pair.needs_test && !bodies_.changed[pair.body_a] && !bodies_.changed[pair.body_b])
+        continue;
       ++changes[c].moved;
       const bool touched = pair.touching();
       Manifold& m = touched ? contacts_.manifolds[pair.manifold] : fresh;
       if (same_as_before(bodies_, reach_, pair, touched ? &m : nullptr)) {
-        if (!touched && broad_phase_.strayed(pair)) changes[c].gone.push_back(i);
+        if (!touched && broad_phase_.left_fat_box(pair)) changes[c].removed.push_back(i);
         continue;
       }
-      ++changes[c].looks;
-      const bool apart = joints_.apart(pair, shapes_, bodies_);
-      pair.fresh = apart;  // looked at again when they cease to ignore each other
-      const bool near = !apart && broad_phase_.near(pair);
+      ++changes[c].tested;
+      const bool ignored = joints_.ignores(pair, shapes_, bodies_);
+      pair.needs_test = ignored;  // tested again once the bodies collide again
+      const bool near = !ignored && broad_phase_.may_touch(pair);
       if (near) update_contact(step_, shapes_, bodies_, pair, m, scratch);
-      m.deep = m.count > 0 && m.least_separation() < -kDeep * m.size_m;
+      m.deep = m.count > 0 && m.least_separation() < -kDeepOverlap * m.size_m;
       if (m.deep) changes[c].deep.push_back(i);
-      if (touched && (!near || m.count == 0)) changes[c].parted.push_back(i);
+      if (touched && (!near || m.count == 0)) changes[c].separated.push_back(i);
       if (!touched && m.count > 0) changes[c].touched.emplace_back(i, std::exchange(fresh, {}));
-      if (!near && !broad_phase_.keep(pair)) changes[c].gone.push_back(i);
+      if (!near && !broad_phase_.is_near(pair)) changes[c].removed.push_back(i);
     }
   });
-  crowd_.thin_out(changes, contacts_, bodies_);
+  dense_clusters_.drop_contacts(changes, contacts_, bodies_);
   std::vector<ManifoldSlot> left;
   for (const ContactChanges& chunk : changes)
-    for (const PairSlot i : chunk.parted) left.push_back(pairs[i].manifold);
-  sleep_.wake_left(left, options_.gravity_W, contacts_, bodies_);
-  approaches_.forget_changed(bodies_);
+    for (const PairSlot i : chunk.separated) left.push_back(pairs[i].manifold);
+  sleep_.wake_unsupported(left, options_.gravity_W, contacts_, bodies_);
+  speculative_contacts_.invalidate_changed(bodies_);
   for (const ContactChanges& chunk : changes)
-    for (const PairSlot i : chunk.parted) {
-      approaches_.forget(pairs[i]);
-      contacts_.part(i);
+    for (const PairSlot i : chunk.separated) {
+      speculative_contacts_.invalidate(pairs[i]);
+      contacts_.remove_manifold(i);
     }
   std::size_t touched = 0;
   for (const ContactChanges& chunk : changes) touched += chunk.touched.size();
@@ -255,17 +264,17 @@ void RigidPhysics::update_contacts() {
       touches{Stage::kCollide, "pairs that came to touch", touched};
   for (const ContactChanges& chunk : changes) {
     moved.count += chunk.moved;
-    span.count(chunk.looks);
+    span.count(chunk.tested);
   }
   work_.add(moved);
   work_.add(touches);
   for (const ContactChanges& chunk : changes)
     for (const auto& [pair, manifold] : chunk.touched) {
-      approaches_.forget(pairs[pair]);
-      contacts_.touch(pair, manifold, bodies_);
+      speculative_contacts_.invalidate(pairs[pair]);
+      contacts_.add_manifold(pair, manifold, bodies_);
     }
   for (const ContactChanges& chunk : changes)
-    for (const PairSlot i : chunk.gone) contacts_.remove(i);
+    for (const PairSlot i : chunk.removed) contacts_.remove(i);
   std::fill(bodies_.changed.begin(), bodies_.changed.end(), std::uint8_t{0});
 }
 
@@ -298,19 +307,22 @@ void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& p
   bodies_.apply_impulse(bodies_.slot(id), impulse_W, point_W);
 }
 
-/// Pairs that begin to ignore each other are looked at, even if they rest.
-void RigidPhysics::look_again(JointId id) {
+/// Marks the pairs of a joint's bodies for a test, since the joint may have made them ignore each
+/// other.
+void RigidPhysics::retest_pairs_of(JointId id) {
   const Joint& joint = joints_[id.slot];
   for (Pair& pair : contacts_.pairs) {
     const bool same = pair.body_a == joint.body_a && pair.body_b == joint.body_b;
-    if (same || (pair.body_a == joint.body_b && pair.body_b == joint.body_a)) pair.fresh = true;
+    if (same || (pair.body_a == joint.body_b && pair.body_b == joint.body_a))
+      pair.needs_test = true;
   }
 }
 
 JointId RigidPhysics::join(const JointDesc& joint) {
   const JointId id = joints_.add(joint, bodies_);
-  look_again(id);
-  // StaticWarmStart knows of contacts only: it would let them bear what hangs in joints.
+  retest_pairs_of(id);
+  // Bodies in joints get no static warm start, which would let their contacts bear what joints
+  // bear.
   for (const BodyId end : {joint.a, joint.b})
     if (bodies_.contains(end)) bodies_.is_new[bodies_.slot(end)] = 0;
   return id;
@@ -318,9 +330,9 @@ JointId RigidPhysics::join(const JointDesc& joint) {
 
 void RigidPhysics::attach(JointId id, bool end_a, BodyId body,
                           std::span<const std::uint32_t> quiet_tags) {
-  sleep_.wake_held(joints_.at(id), options_.gravity_W, contacts_, bodies_);
+  sleep_.wake_joined(joints_.at(id), options_.gravity_W, contacts_, bodies_);
   joints_.attach(id, end_a, body, quiet_tags, bodies_);
-  look_again(id);
+  retest_pairs_of(id);
 }
 
 void RigidPhysics::pause(std::span<const BodyId> bodies) {
@@ -334,8 +346,8 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SolveReport report;
   freeze_broken();
   joints_.wake(bodies_);
-  joints_.forget_flows();
-  paused_.stop(bodies_);
+  joints_.clear_flows();
+  paused_.suspend(bodies_);
   const Momentum start = bodies_.momentum();
   double awake_mass = 0;
   for (const BodySlot body : bodies_.slots()) {
@@ -344,10 +356,10 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     bodies_.changed[body] = 1;
   }
   static_warm_start_.apply(step, options_.static_warm_start, bodies_, contacts_);
-  bodies_.end_news();
+  bodies_.clear_step_flags();
   const ContactSolveReport solved = solve_contacts(step);
   for (const BodySlot body : bodies_.slots())
-    if (bodies_.carries(body)) carry_on(step, body, bodies_);
+    if (bodies_.is_moving_kinematic(body)) move_kinematic(step, body, bodies_);
   last_h_s_ = step.h_s;
   report.external_impulse_Ns = solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
@@ -358,10 +370,10 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.energy = energy_of(solved, step, start, end);
   report.friction_allowed_Ns = solved.work.allowed_Ns;
   report.friction_excess_Ns = solved.work.excess_Ns;
-  paused_.release(bodies_);  // no sleepers: what presses on them now wakes nobody
+  paused_.resume(bodies_);  // paused bodies are not asleep: contacts no longer wake them
   if (options_.sleeping) {
     const WorkSpan span(work_, Stage::kSolve, "sleep");
-    sleep_.wake_changed(step, contacts_, bodies_);
+    sleep_.wake_by_load(step, contacts_, bodies_);
     report.energy.sleep = sleep_.put_to_sleep(step, joints_, bodies_, contacts_);
   }
   contacts_of_bodies_.clear();

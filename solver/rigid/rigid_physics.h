@@ -1,4 +1,4 @@
-// Our own rigid bodies behind the Physics seam: coloured PGS with soft substeps.
+// Makes the rigid-body solver: projected Gauss-Seidel over coloured contacts, in soft substeps.
 #pragma once
 
 #include <memory>
@@ -10,24 +10,27 @@ namespace sunder::solver {
 struct RigidOptions {
   Vec3 gravity_W = Vec3(0, -9.81, 0);
   bool sleeping = true;
-  /// Colours that contacts are solved in, one after another; those that find none are solved side
-  /// by side with their bodies split. 64: coloured Gauss-Seidel; 0: mass splitting alone.
+  /// Number of colours, 0 to 64. Contacts of different colours are solved one after another;
+  /// contacts that get no colour are solved in parallel by mass splitting. 64: coloured
+  /// Gauss-Seidel; 0: mass splitting alone.
   int max_colors = 64;
-  int sweeps = 1;  ///< Of either kind in a substep.
-  /// Sweeps go by conjugate gradients, which tell from three a substep on.
+  int sweeps = 1;  ///< Number of biased sweeps, and of relaxed sweeps, per substep.
+  /// Sweeps are accelerated by conjugate gradients; has an effect from three sweeps a substep.
   bool accelerated = true;
-  /// Manifolds solved side by side by a thread: 1, 4, 8 or 16, or fewer if the processor has not
-  /// so many; 0: the most it has. The same bits for any.
+  /// Maximum number of manifolds that a thread solves in SIMD lanes: 1, 4, 8 or 16, limited by the
+  /// processor; 0: as many as the processor has. The results have the same bits for any number.
   int lanes = 0;
-  /// Part of its load that a contact of new bodies is given: see static_warm_start.h. 0: it starts
-  /// cold.
+  /// Fraction of its static load that a contact of a new body starts with; 0: no static warm start.
+  /// See static_warm_start.h.
   double static_warm_start = 1;
 };
 
-/// The lanes that a solver works with if it is asked for so many.
+/// Returns the number of lanes that a solver uses if `lanes` are requested (see
+/// RigidOptions::lanes).
 int lanes_in_use(int lanes);
 
-/// The same bits for any number of threads (engine/base/parallel.h sets it).
+/// Returns a rigid-body solver. Results have the same bits for any number of threads, which
+/// engine/base/parallel.h sets.
 std::unique_ptr<Physics> make_rigid_physics(const RigidOptions& options);
 
 }  // namespace sunder::solver

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "solver/rigid/collide/approach.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/collide/speculative_contacts.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -16,7 +16,8 @@ float weight_N(const Bodies& bodies, BodySlot body, const Vec3& gravity_W) {
   return static_cast<float>(bodies.mass_kg[body] * FroudeScale(gravity_W).gravity_m_s2());
 }
 
-/// So many speeds of falling of a piece, or what gravity does in a step, if that is more.
+/// Returns a speed given in speeds of falling by `reach_m`, at least that of gravity in a step;
+/// m/s.
 double speed_m_s(double speeds, const StepContext& step, double reach_m) {
   return std::max(speeds * step.froude.speed_m_s(reach_m), step.froude.gravity_m_s2() * step.dt_s);
 }
@@ -26,22 +27,23 @@ Vec3f up(const Vec3& gravity_W) {
   return g > 0 ? Vec3f((-gravity_W / g).cast<float>()) : Vec3f(Vec3f::Zero());
 }
 
-/// How the force of a contact on its second body differs from what it was.
+/// Change of a contact's force on its second body.
 struct ForceChange {
   Vec3f force_W;
-  float beyond_N;  ///< The part that counts: less a share of what the contact carried.
+  /// Magnitude of the change, less the ignored fraction of the force before; in N.
+  float counted_N;
 };
 
 ForceChange change_of(const StepContext& step, const Manifold& m, const Vec3f& before_W) {
   const Vec3f change_W = step.inverse_h * m.impulse_W() - before_W;
-  return {change_W, std::max(0.f, change_W.norm() - kChange * before_W.norm())};
+  return {change_W, std::max(0.f, change_W.norm() - kIgnoredForceChange * before_W.norm())};
 }
 
 bool asleep(const Bodies& bodies, BodySlot body) { return bodies.motion[body] == Motion::kAsleep; }
 
 }  // namespace
 
-void Sleep::note_rest(const StepContext& step, Bodies& bodies) {
+void Sleep::update_rest_time(const StepContext& step, Bodies& bodies) {
   for (const BodySlot body : bodies.slots()) {
     if (!bodies.awake(body)) continue;
     const double reach = bodies.reach_m[body];
@@ -50,8 +52,8 @@ void Sleep::note_rest(const StepContext& step, Bodies& bodies) {
     const Quat rotation = bodies.rest_rotation[body].conjugate() * bodies.rotation[body];
     const double drift = (bodies.position[body] - bodies.rest_position[body]).norm() +
                          2 * rotation.vec().norm() * reach;
-    if (speed < speed_m_s(kSlow, step, reach) && drift < kDrift * reach) {
-      bodies.slow_s[body] += static_cast<float>(step.dt_s);
+    if (speed < speed_m_s(kMaxRestSpeed, step, reach) && drift < kMaxRestDrift * reach) {
+      bodies.resting_s[body] += static_cast<float>(step.dt_s);
     } else {
       bodies.restart_rest(body);
       bodies.rest_position[body] = bodies.position[body];
@@ -60,23 +62,24 @@ void Sleep::note_rest(const StepContext& step, Bodies& bodies) {
   }
 }
 
-/// A body whose load has just changed by as much as would wake it does not rest, though it may not
-/// have moved yet.
+/// Removes candidates whose load has just changed by enough to wake them: they may be about to
+/// move.
 void Sleep::keep_changed_awake(const StepContext& step, const Contacts& contacts,
                                const Bodies& bodies) {
   change_N_.assign(bodies.size(), 0);
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0 || !(candidate_[m.body_a] || candidate_[m.body_b])) continue;
-    const float change_N = change_of(step, m, m.mean_force_W).beyond_N;
+    const float change_N = change_of(step, m, m.mean_force_W).counted_N;
     change_N_[m.body_a] += change_N;
     change_N_[m.body_b] += change_N;
   }
   for (const BodySlot body : bodies.slots())
-    if (candidate_[body] && change_N_[body] > kChange * weight_N(bodies, body, step.gravity_W))
+    if (candidate_[body] &&
+        change_N_[body] > kWakingForceChange * weight_N(bodies, body, step.gravity_W))
       candidate_[body] = 0;
 }
 
-/// What is joined to something that moves does not rest.
+/// Removes candidates that are joined to a moving body.
 void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
   for (bool again = true; again;) {
     again = false;
@@ -84,7 +87,7 @@ void Sleep::keep_joined_awake(const Bodies& bodies, const Joints& joints) {
       if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) continue;
       for (const auto& [one, other] :
            {std::pair(joint.body_a, joint.body_b), {joint.body_b, joint.body_a}}) {
-        const bool moves = bodies.awake(other) || bodies.shifts(other);
+        const bool moves = bodies.awake(other) || bodies.is_shifting_kinematic(other);
         if (!candidate_[one] || candidate_[other] || !moves) continue;
         candidate_[one] = 0;
         again = true;
@@ -109,24 +112,24 @@ void Sleep::anchor_by_joints(const Bodies& bodies, const Joints& joints, Disjoin
 
 double Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
                            Contacts& contacts) {
-  note_rest(step, bodies);
+  update_rest_time(step, bodies);
   const std::uint32_t n = bodies.size();
   candidate_.assign(n, 0);
   bool any = false;
   for (const BodySlot body : bodies.slots()) {
     candidate_[body] =
-        bodies.awake(body) && double{bodies.slow_s[body]} >= step.rest_s(bodies.reach_m[body]);
+        bodies.awake(body) && double{bodies.resting_s[body]} >= step.rest_s(bodies.reach_m[body]);
     any = any || candidate_[body];
   }
   if (!any) return {};
   for (const Manifold& m : contacts.manifolds) {
     if (m.count == 0) continue;
-    if (bodies.shifts(m.body_b)) candidate_[m.body_a] = 0;
-    if (bodies.shifts(m.body_a)) candidate_[m.body_b] = 0;
+    if (bodies.is_shifting_kinematic(m.body_b)) candidate_[m.body_a] = 0;
+    if (bodies.is_shifting_kinematic(m.body_a)) candidate_[m.body_b] = 0;
   }
   keep_changed_awake(step, contacts, bodies);
   keep_joined_awake(bodies, joints);
-  DisjointSets groups(n);  // of what rests on each other
+  DisjointSets groups(n);  // bodies at rest in contact with each other
   anchored_.assign(n, step.gravity_W.isZero(0));
   auto rests = [&](BodySlot body) { return candidate_[body] || asleep(bodies, body); };
   for (const Manifold& m : contacts.manifolds) {
@@ -165,7 +168,7 @@ void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& 
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) return BodySlot();
     const BodySlot body = a ? m.body_a : m.body_b;
-    const double hit_m_s = speed_m_s(kSlow / 3, step, bodies.reach_m[body]);
+    const double hit_m_s = speed_m_s(kHitSpeed, step, bodies.reach_m[body]);
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
       const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
@@ -184,7 +187,7 @@ void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& 
     for (const BodySlot body : chunk) bodies.wake(body);
 }
 
-void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies) {
+void Sleep::wake_by_load(const StepContext& step, const Contacts& contacts, Bodies& bodies) {
   change_N_.assign(bodies.size(), 0);
   support_N_.assign(bodies.size(), 0);
   const Vec3f up_W = up(step.gravity_W);
@@ -194,30 +197,31 @@ void Sleep::wake_changed(const StepContext& step, const Contacts& contacts, Bodi
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
     const BodySlot body = a ? m.body_a : m.body_b;
     const ForceChange change = change_of(step, m, m.rest_force_W);
-    change_N_[body] += change.beyond_N;
+    change_N_[body] += change.counted_N;
     support_N_[body] += (a ? -1.f : 1.f) * change.force_W.dot(up_W);
   }
   std::vector<BodySlot> woken, left;
   for (const BodySlot body : bodies.slots()) {
     if (!asleep(bodies, body)) continue;
     const float weight = weight_N(bodies, body, step.gravity_W);
-    if (change_N_[body] <= kChange * weight) continue;
-    (support_N_[body] < -kChange * weight ? left : woken).push_back(body);
+    if (change_N_[body] <= kWakingForceChange * weight) continue;
+    (support_N_[body] < -kSupportingForce * weight ? left : woken).push_back(body);
   }
   for (const BodySlot body : woken) bodies.wake(body);
   wake_above(std::move(left), step.gravity_W, contacts, bodies);
 }
 
-void Sleep::wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
-                      const Contacts& contacts, Bodies& bodies) {
+void Sleep::wake_unsupported(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
+                             const Contacts& contacts, Bodies& bodies) {
   std::vector<BodySlot> lowest;
   for (const ManifoldSlot slot : manifolds) {
     const Manifold& m = contacts.manifolds[slot];
     for (const BodySlot body : {m.body_a, m.body_b}) {
-      if (!bodies.dynamic(body) || !(bodies.slow_s[body] > 0)) continue;
+      if (!bodies.dynamic(body) || !(bodies.resting_s[body] > 0)) continue;
       const float rest_N = asleep(bodies, body) ? m.rest_force_W.norm() : 0;
       bodies.lost_N[body] += std::max(rest_N, m.mean_force_W.norm());
-      if (double{bodies.lost_N[body]} <= kDrift * double{weight_N(bodies, body, gravity_W)})
+      if (double{bodies.lost_N[body]} <=
+          kMaxLostSupport * double{weight_N(bodies, body, gravity_W)})
         continue;
       lowest.push_back(body);
       bodies.restart_rest(body);
@@ -228,23 +232,24 @@ void Sleep::wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravi
   wake_above(std::move(lowest), gravity_W, contacts, bodies);
 }
 
-void Sleep::wake_held(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
-                      Bodies& bodies) {
-  if (!joint.bears()) return;
+void Sleep::wake_joined(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
+                        Bodies& bodies) {
+  if (!joint.has_load()) return;
   std::vector<BodySlot> held;
   for (const BodySlot body : {joint.body_a, joint.body_b})
     if (!body.none() && bodies.dynamic(body)) held.push_back(body);
   wake_above(std::move(held), gravity_W, contacts, bodies);
 }
 
-void Sleep::wake_held(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
-                      const Contacts& contacts, Bodies& bodies) {
+void Sleep::wake_joined(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
+                        const Contacts& contacts, Bodies& bodies) {
   for (const Joint& joint : joints)
-    if (joint.body_a == body || joint.body_b == body) wake_held(joint, gravity_W, contacts, bodies);
+    if (joint.body_a == body || joint.body_b == body)
+      wake_joined(joint, gravity_W, contacts, bodies);
 }
 
-void Sleep::wake_carried(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies) {
-  const auto shifts = [&](BodySlot body) { return bodies.shifts(body); };
+void Sleep::wake_on_kinematic(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies) {
+  const auto shifts = [&](BodySlot body) { return bodies.is_shifting_kinematic(body); };
   bool any = false;
   for (const BodySlot body : bodies.slots()) any = any || shifts(body);
   if (!any) return;
@@ -261,14 +266,16 @@ void Sleep::wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W,
                        const Contacts& contacts, Bodies& bodies) {
   if (lowest.empty()) return;
   const Vec3f up_W = up(gravity_W);
-  // What sleeps on what: a counting sort of edges by the lower body.
+  // Edges from a body to a sleeping body that it supports, sorted by the lower body (counting
+  // sort).
   auto for_each_edge = [&](const auto& visit) {
     for (const Manifold& m : contacts.manifolds) {
       if (m.count == 0 || !bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) continue;
       const float lift = m.rest_force_W.dot(up_W);
       const BodySlot low = lift > 0 ? m.body_a : m.body_b;
       const BodySlot high = lift > 0 ? m.body_b : m.body_a;
-      if (asleep(bodies, high) && std::abs(lift) > kChange * weight_N(bodies, high, gravity_W))
+      if (asleep(bodies, high) &&
+          std::abs(lift) > kSupportingForce * weight_N(bodies, high, gravity_W))
         visit(low, high);
     }
   };

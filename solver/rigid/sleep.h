@@ -1,7 +1,8 @@
-// Bodies fall asleep and wake one by one, not by islands: what rests may sleep beside what moves.
+// Puts bodies to sleep and wakes them one by one, not by islands: a body at rest may sleep beside a
+// moving one.
 //
-// A sleeper keeps its true mass in the contacts of its neighbours, so that those stay as soft as
-// they were, but takes no impulse. It sleeps as long as what presses on it stays what it was.
+// A sleeping body keeps its mass in the contacts of its neighbours, so that their softness does not
+// change, but takes no impulse. A change of the contact forces on it wakes it.
 #pragma once
 
 #include <span>
@@ -17,44 +18,45 @@ namespace sunder::solver {
 
 class Sleep {
  public:
-  /// Puts bodies to sleep that have been at rest for longer than they would take to tip, and stand
-  /// on something, by loaded contacts or joints through other sleepers, that cannot move, or is
-  /// kinematic and stands still; what is joined, only together; none whose load has just changed.
-  /// The answer is the kinetic energy that was taken away.
+  /// Puts bodies to sleep that have been at rest for longer than they would take to tip. They must
+  /// be supported, through loaded contacts or joints and other sleeping bodies, by a body that
+  /// cannot move or by a kinematic body at rest. Joined bodies fall asleep together; bodies with a
+  /// recent change of load do not. Returns the kinetic energy that this removes, in J.
   double put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
                       Contacts& contacts);
-  /// Wakes sleepers that something awake is about to hit.
+  /// Wakes sleeping bodies that an awake body is about to hit.
   void wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const;
-  /// Wakes sleepers that touch a kinematic body that is on its way, and what stands on them.
-  void wake_carried(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies);
-  /// Wakes sleepers on which the load has changed in the last solve, and what stood on them if it
-  /// was their support that went.
-  void wake_changed(const StepContext& step, const Contacts& contacts, Bodies& bodies);
-  /// Tells bodies at rest, asleep or awake, that these manifolds are about to go. The time of rest
-  /// of a body starts anew once those that it lost carried more than kDrift of its weight in all;
-  /// the body wakes, and all sleepers that stand on it.
-  void wake_left(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
-                 const Contacts& contacts, Bodies& bodies);
-  /// Wakes the bodies of a joint that bears load and is about to go, and all sleepers that stand on
-  /// them.
-  void wake_held(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
-                 Bodies& bodies);
-  /// Wakes those of all joints of a body that is about to go.
-  void wake_held(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
-                 const Contacts& contacts, Bodies& bodies);
+  /// Wakes sleeping bodies in contact with a moving kinematic body, and the bodies above them.
+  void wake_on_kinematic(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies);
+  /// Wakes sleeping bodies whose contact forces the last solve changed; if a body lost support,
+  /// also the sleeping bodies above it.
+  void wake_by_load(const StepContext& step, const Contacts& contacts, Bodies& bodies);
+  /// Must be called before these manifolds are removed. Restarts the time of rest of a body, asleep
+  /// or awake, once its removed contacts have carried more than kMaxLostSupport of its weight in
+  /// all; wakes that body and all sleeping bodies above it.
+  void wake_unsupported(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
+                        const Contacts& contacts, Bodies& bodies);
+  /// Must be called before a joint is removed. If the joint bears load, wakes its bodies and all
+  /// sleeping bodies above them.
+  void wake_joined(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
+                   Bodies& bodies);
+  /// Must be called before a body is removed: wake_joined() for all of its joints.
+  void wake_joined(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
+                   const Contacts& contacts, Bodies& bodies);
 
  private:
-  void note_rest(const StepContext& step, Bodies& bodies);
+  void update_rest_time(const StepContext& step, Bodies& bodies);
   void anchor_by_joints(const Bodies& bodies, const Joints& joints, DisjointSets& groups);
   void keep_changed_awake(const StepContext& step, const Contacts& contacts, const Bodies& bodies);
   void keep_joined_awake(const Bodies& bodies, const Joints& joints);
-  /// Wakes these and all sleepers that stand on them, by sleepers between.
+  /// Wakes bodies and all sleeping bodies that they support, directly or through sleeping bodies.
   void wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W, const Contacts& contacts,
                   Bodies& bodies);
 
   ByBody<std::uint8_t> candidate_, anchored_;
-  ByBody<float> change_N_, support_N_;  ///< Of the force on a body, from that at rest.
-  std::vector<std::uint32_t> first_;    ///< In `above_`, by body.
+  /// Change of the force on a body, in N, against that at rest.
+  ByBody<float> change_N_, support_N_;
+  std::vector<std::uint32_t> first_;  ///< First index into `above_`, by body.
   std::vector<BodySlot> above_;
 };
 

@@ -1,4 +1,4 @@
-// What a solve did to the kinetic energy of awake bodies, by cause.
+// Changes of the kinetic energy of awake bodies in a solve, by cause.
 #pragma once
 
 #include "engine/model/energy.h"
@@ -8,9 +8,9 @@
 
 namespace sunder::solver {
 
-/// From the motion before and after the step. What the measured flows leave over is that of
-/// contacts, or of joints where there are any: arms and Jacobians turn within a step, so what an
-/// impulse did is known only from the motion.
+/// Returns the energy flows of a step from the motion before and after it, and the measured work.
+/// The remainder is assigned to joints, or to contacts if there are no joints: lever arms and
+/// Jacobians turn within a step, so the work of an impulse follows only from the motion.
 inline EnergyFlows energy_of(const ContactSolveReport& solved, const StepContext& step,
                              const Momentum& start, const Momentum& end) {
   EnergyFlows energy;

@@ -94,7 +94,7 @@ void a_scene_from_a_text() {
   options.warn = [](const std::string& warning) { std::printf("%s\n", warning.c_str()); };
   sunder::Statistics statistics(sunder::scenes::run_info(scene));
   sunder::StateHash hash;
-  sunder::TakeWriter writer("shot.take");
+  sunder::RecordingWriter writer("shot.take");
   Breaks breaks;
   sunder::FrameSink* const sinks[] = {&statistics, &hash, &writer, &breaks};
   sunder::pump(*sunder::scenes::make_simulation(scene, options), sinks);
@@ -105,7 +105,7 @@ void a_scene_from_a_text() {
   expect(statistics.json(hash.hex(), false).find(hash.hex()) != std::string::npos,
          "the figures hold the state hash");
 
-  sunder::TakeReader reader("shot.take");
+  sunder::RecordingReader reader("shot.take");
   sunder::StateHash played;
   sunder::FrameSink* const player[] = {&played};
   expect(reader.frames() == 61, "a take holds all frames");
@@ -115,7 +115,7 @@ void a_scene_from_a_text() {
 
 /// Draws a recording into a PNG file, if there is a GL driver.
 void a_picture() {
-  sunder::TakeReader reader("shot.take");
+  sunder::RecordingReader reader("shot.take");
   sunder::render::RenderOptions options;
   options.width = 64;
   options.height = 48;
@@ -131,7 +131,7 @@ void a_picture() {
 
 /// Draws one frame into an image in memory, and writes it to a file, if there is a GL driver.
 void a_frame_drawn() {
-  sunder::TakeReader reader("shot.take");
+  sunder::RecordingReader reader("shot.take");
   reader.seek(30);
   const sunder::FramePtr frame = reader.next();
   sunder::render::RenderOptions options;

@@ -12,7 +12,7 @@ namespace {
 using testing::ScriptedBreaker;
 using testing::ScriptedPhysics;
 
-std::vector<Approach> none(const ScriptedPhysics&, int) { return {}; }
+std::vector<SpeculativeContact> none(const ScriptedPhysics&, int) { return {}; }
 
 Scene empty_scene() {
   Scene scene;
@@ -33,7 +33,7 @@ Solid row(const Vec3& low, int count, bool anchored) {
     const Vec3 min = low + Vec3(i, 0, 0);
     solid.compound.convexes.push_back(
         make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
-    solid.compound.anchored.push_back(anchored ? kAnchoredAllRound : 0);
+    solid.compound.anchored.push_back(anchored ? kAnchoredAllSides : 0);
   }
   return solid;
 }

@@ -199,13 +199,13 @@ TEST_P(ForChunks, MayRunOnSeveralThreadsOfTheCallersAtOnce) {
 }
 
 TEST_P(ForChunks, ANestedLoopMayNotRunInParallel) {
-  EXPECT_EQ(may_share_work(), GetParam() > 1);
+  EXPECT_EQ(can_run_parallel(), GetParam() > 1);
   for_chunks(8, 1, [](std::size_t, std::size_t, std::size_t) {
     if (GetParam() > 1) {
-      EXPECT_FALSE(may_share_work());
+      EXPECT_FALSE(can_run_parallel());
     }
   });
-  EXPECT_EQ(may_share_work(), GetParam() > 1);
+  EXPECT_EQ(can_run_parallel(), GetParam() > 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, ForChunks, ::testing::Values(1, 2, 4));

@@ -1,6 +1,6 @@
 // Tests of the range coder: numbers are read back, repeated numbers take few bits, and damaged
 // bytes do no harm.
-#include "engine/io/take/bit_coder.h"
+#include "engine/io/recording/bit_coder.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<std::byte> written(std::span<const std::uint32_t> all) {
   BitWriter bits;
   for (const std::uint32_t number : all) {
     model.put(bits, number);
-    bits.put_plain(number, 5);
+    bits.put_uniform(number, 5);
   }
   ByteWriter out;
   bits.finish(out);
@@ -42,7 +42,7 @@ TEST(BitCoder, NumbersOfEveryLengthAreReadBack) {
     NumberModel model;
     for (std::size_t i = 0; i < all.size(); ++i) {
       ASSERT_EQ(model.take(bits), all[i]) << i;
-      ASSERT_EQ(bits.take_plain(5), all[i] & 31) << i;
+      ASSERT_EQ(bits.take_uniform(5), all[i] & 31) << i;
     }
   }
 }
@@ -84,7 +84,7 @@ TEST(BitCoder, ReadsDamagedBytesAsOtherNumbersAndZerosBeyondTheirEnd) {
     bool differs = false;
     for (const std::uint32_t number : all) {
       differs |= model.take(bits) != number;
-      differs |= bits.take_plain(5) != (number & 31);
+      differs |= bits.take_uniform(5) != (number & 31);
     }
     EXPECT_TRUE(differs) << at;
     for (int more = 0; more < 10000; ++more) model.take(bits);

@@ -106,7 +106,7 @@ Scene plate_scene(double distance_m, double half_m, double thick_m, double tnt_k
 /// Returns the momentum of the scene's first solid after six frames, in N s.
 Vec3 momentum_of(const Scene& scene) {
   auto owned = std::make_unique<ScriptedPhysics>(
-      [](const ScriptedPhysics&, int) { return std::vector<Approach>(); });
+      [](const ScriptedPhysics&, int) { return std::vector<SpeculativeContact>(); });
   ScriptedPhysics* physics = owned.get();
   Simulation simulation(scene, std::move(owned), std::make_unique<ScriptedBreaker>(1));
   for (int i = 0; i < 6; ++i) simulation.next();

@@ -36,17 +36,17 @@ Scene scene_of(const Compound& compound) {
 
 /// Simulation whose breaker returns the test's answers, and records the last load evaluated.
 struct LoadRun {
-  using Answer = std::function<StressAnswer(const Structure&, const LoadCase&)>;
+  using Answer = std::function<StressResult(const Structure&, const LoadCase&)>;
 
   ScriptedPhysics* physics = nullptr;
   int evaluations = 0;
   Vec3 evaluated_force = Vec3::Zero(), evaluated_spin_R = Vec3::Zero();
-  std::vector<Load> evaluated_loads;
+  std::vector<AppliedForce> evaluated_loads;
   std::unique_ptr<Simulation> simulation;
 
   LoadRun(Scene scene, Answer answer) {
     auto owned = std::make_unique<ScriptedPhysics>(
-        [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+        [](const ScriptedPhysics&, int) { return std::vector<SpeculativeContact>{}; });
     physics = owned.get();
     auto breaker = std::make_unique<ScriptedBreaker>(1.0);
     breaker->stressed = [this, answer](const Structure& structure, const LoadCase& load) {
@@ -54,7 +54,7 @@ struct LoadRun {
       evaluated_force.setZero();
       evaluated_spin_R = load.spin_R;
       evaluated_loads.assign(load.loads.begin(), load.loads.end());
-      for (const Load& one : load.loads) evaluated_force += one.force_N;
+      for (const AppliedForce& one : load.loads) evaluated_force += one.force_N;
       return answer(structure, load);
     };
     simulation =
@@ -70,14 +70,14 @@ struct LoadRun {
   }
 };
 
-StressAnswer keep_whole(const Structure&, const LoadCase&) {
-  StressAnswer answer;
+StressResult keep_whole(const Structure&, const LoadCase&) {
+  StressResult answer;
   answer.settled = true;
   return answer;
 }
 
-StressAnswer split_in_parts(const Structure& structure, const LoadCase&) {
-  StressAnswer answer;
+StressResult split_in_parts(const Structure& structure, const LoadCase&) {
+  StressResult answer;
   answer.settled = true;
   answer.edit = ScriptedBreaker::part(structure);
   return answer;
@@ -113,8 +113,8 @@ TEST(LoadStage, AnImpulseIsSpreadOverTheAveragingTimeWhateverTheStep) {
     scene.accuracy.dt_s = 1.0 / (60 * steps);
     double highest = 0;
     LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
-      for (const Load& one : load.loads) highest = std::max(highest, one.force_N.norm());
-      StressAnswer answer;
+      for (const AppliedForce& one : load.loads) highest = std::max(highest, one.force_N.norm());
+      StressResult answer;
       answer.settled = true;
       return answer;
     });
@@ -147,7 +147,7 @@ TEST(LoadStage, RemovingANeighbourShowsTheFaceThatItCovered) {
     return sum;
   };
   LoadRun run(scene_of(two_boxes(true)), [](const Structure& structure, const LoadCase&) {
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = true;
     answer.edit.changed = structure.has(ConvexSlot(1));
     if (!answer.edit.changed) return answer;
@@ -167,7 +167,7 @@ TEST(LoadStage, AJointLoadsTheConvexThatIsNearestToItsAnchor) {
     run.physics->pulls = {{0, pull / 60, Vec3(0.25, y, 0.5), turn / 60}};
     run.frames(120);
     ASSERT_EQ(run.evaluated_loads.size(), 1u);
-    const Load& load = run.evaluated_loads[0];
+    const AppliedForce& load = run.evaluated_loads[0];
     EXPECT_EQ(load.convex, ConvexSlot(1));
     EXPECT_LT((load.force_N - pull).norm(), 0.1 * pull.norm());
     const Vec3 about = (Vec3(0.25, y, 0.5) - load.point_R).cross(pull) + turn;
@@ -214,7 +214,7 @@ TEST(LoadStage, OnlySpinIsEvaluatedForSmallFragments) {
   compound.anchored.push_back(0);
   compound.bonds.push_back({1, 2, 3, 2, 1});
   LoadRun run(scene_of(compound), [](const Structure& structure, const LoadCase&) {
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = true;
     answer.edit.changed = structure.size() == 3;
     if (!answer.edit.changed) return answer;
@@ -254,7 +254,7 @@ TEST(LoadStage, DefersEvaluationsOverTheBudgetAndDropsNone) {
   std::vector<std::uint64_t> allowed;
   LoadRun run(scene, [&](const Structure& structure, const LoadCase& load) {
     allowed.push_back(load.most_work);
-    StressAnswer answer = split_in_parts(structure, load);
+    StressResult answer = split_in_parts(structure, load);
     answer.work = load.most_work;
     return answer;
   });
@@ -273,7 +273,7 @@ TEST(LoadStage, AFrameMayUseTheBudgetThatTheFrameBeforeLeft) {
   std::vector<std::uint64_t> allowed;
   LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
     allowed.push_back(load.most_work);
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = true;
     answer.work = load.most_work;
     return answer;
@@ -285,12 +285,12 @@ TEST(LoadStage, AFrameMayUseTheBudgetThatTheFrameBeforeLeft) {
 }
 
 TEST(LoadStage, PassesTheStressMemoryBack) {
-  struct Marked final : StressMemory {};
+  struct Marked final : StressCache {};
   const auto memory = std::make_shared<const Marked>();
-  StressMemoryPtr seen;
+  StressCachePtr seen;
   LoadRun run(scene_of(two_boxes(true)), [&](const Structure&, const LoadCase& load) {
     seen = load.memory;
-    StressAnswer answer;
+    StressResult answer;
     answer.settled = seen != nullptr;
     answer.memory = memory;
     return answer;

@@ -8,7 +8,7 @@
 #include "engine/base/check.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/frame_parts.h"
-#include "engine/io/take/take.h"
+#include "engine/io/recording/recording.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
@@ -34,13 +34,13 @@ std::shared_ptr<Frame> textured_frame() {
   auto frame = std::make_shared<Frame>();
   frame->materials = std::make_shared<const std::vector<Material>>(1);
   const auto shared = picture(7);
-  frame->paints = std::make_shared<const std::vector<Paint>>(std::vector<Paint>{
+  frame->paints = std::make_shared<const std::vector<Appearance>>(std::vector<Appearance>{
       {Vec3f(1, 0.5f, 0.25f), shared, true},
       {Vec3f(0, 0, 1), nullptr, false},
       {Vec3f(1, 1, 1), picture(9), false},
       {Vec3f(0.5f, 1, 1), shared, true, picture(5), 0.5f},
-      {Vec3f(0.5f, 1, 1), nullptr, true, shared, -2, Gloss{0.25f, 1, picture(3)}},
-      {Vec3f(0.5f, 1, 1), nullptr, true, nullptr, 1, Gloss{0.5f, 0}}});
+      {Vec3f(0.5f, 1, 1), nullptr, true, shared, -2, MetallicRoughness{0.25f, 1, picture(3)}},
+      {Vec3f(0.5f, 1, 1), nullptr, true, nullptr, 1, MetallicRoughness{0.5f, 0}}});
   auto mesh = std::make_shared<Mesh>(*make_ball_mesh(1, MaterialIndex(0)));
   mesh->vertices[3].look = Mesh::kFirstPaint;
   mesh->vertices[5].look = Mesh::kFirstPaint + 3;
@@ -58,9 +58,9 @@ void expect_same(const Frame& read, const Frame& frame) {
   ASSERT_TRUE(read.paints);
   ASSERT_EQ(read.paints->size(), frame.paints->size());
   for (std::size_t p = 0; p < frame.paints->size(); ++p) {
-    const Paint &got = (*read.paints)[p], &given = (*frame.paints)[p];
+    const Appearance &got = (*read.paints)[p], &given = (*frame.paints)[p];
     EXPECT_EQ(got.color, given.color);
-    EXPECT_EQ(got.from_below, given.from_below);
+    EXPECT_EQ(got.v_from_bottom, given.v_from_bottom);
     ASSERT_EQ(got.picture == nullptr, given.picture == nullptr);
     if (given.picture) {
       EXPECT_EQ(*got.picture, *given.picture);
@@ -69,7 +69,7 @@ void expect_same(const Frame& read, const Frame& frame) {
     if (given.relief) {
       EXPECT_EQ(*got.relief, *given.relief);
     }
-    EXPECT_EQ(got.relief_scale, given.relief_scale);
+    EXPECT_EQ(got.normal_scale, given.normal_scale);
     ASSERT_EQ(got.gloss.has_value(), given.gloss.has_value());
     if (!given.gloss) continue;
     EXPECT_EQ(got.gloss->roughness, given.gloss->roughness);
@@ -98,11 +98,11 @@ TEST_F(AppearanceIo, FrameFilesKeepAppearancesTexturesAndTextureCoordinates) {
 TEST_F(AppearanceIo, RecordingsKeepAppearancesTexturesAndTextureCoordinates) {
   const auto frame = textured_frame();
   {
-    TakeWriter writer(path_);
+    RecordingWriter writer(path_);
     writer.take(frame);
     writer.finish();
   }
-  TakeReader reader(path_);
+  RecordingReader reader(path_);
   const FramePtr read = reader.next();
   ASSERT_TRUE(read);
   expect_same(*read, *frame);
@@ -110,14 +110,14 @@ TEST_F(AppearanceIo, RecordingsKeepAppearancesTexturesAndTextureCoordinates) {
 
 TEST_F(AppearanceIo, AnAppearanceWithoutNormalMapAndRoughnessHasTheBytesOfEarlierVersions) {
   ByteWriter out;
-  put(out,
-      std::vector<Paint>{{Vec3f(1, 0.5f, 0.25f), picture(7), true}, {Vec3f(0, 0, 1), nullptr}});
+  put(out, std::vector<Appearance>{{Vec3f(1, 0.5f, 0.25f), picture(7), true},
+                                   {Vec3f(0, 0, 1), nullptr}});
   EXPECT_EQ(out.bytes.size(), 4 + (12 + 1 + 4 + 4 + 3) + (12 + 1 + 4u));
 }
 
 TEST_F(AppearanceIo, AVertexOfAMissingAppearanceIsRefused) {
   const auto frame = textured_frame();
-  frame->paints = std::make_shared<const std::vector<Paint>>(1);
+  frame->paints = std::make_shared<const std::vector<Appearance>>(1);
   write_frame(path_, *frame);
   EXPECT_THROW(read_frame(path_), InputError);
 }

@@ -18,14 +18,14 @@ class RecordingParticles final : public Particles {
  public:
   struct Face {
     std::vector<Vec3> corners_W;
-    Emission emission;
+    ExposedPolygon emission;
   };
-  void emit(std::span<const Emission> emitted) override {
-    for (const Emission& face : emitted) {
+  void emit(std::span<const ExposedPolygon> emitted) override {
+    for (const ExposedPolygon& face : emitted) {
       faces.push_back({{face.corners_W.begin(), face.corners_W.end()}, face});
     }
   }
-  void emit(std::span<const Chip> emitted) override {
+  void emit(std::span<const DebrisPiece> emitted) override {
     chips.insert(chips.end(), emitted.begin(), emitted.end());
   }
   void advance(double dt_s, const Obstacles& obstacles) override {
@@ -48,7 +48,7 @@ class RecordingParticles final : public Particles {
   }
 
   std::vector<Face> faces;
-  std::vector<Chip> chips;
+  std::vector<DebrisPiece> chips;
   std::vector<double> steps_s;
   std::vector<ObstacleBody> bodies;
   std::size_t shapes = 0;
@@ -80,7 +80,7 @@ class PushingPhysics final : public ScriptedPhysics {
  public:
   explicit PushingPhysics(const Vec3& change_m_s, int delay_steps = 0)
       : ScriptedPhysics([delay_steps](const ScriptedPhysics& physics, int collides) {
-          if (collides < delay_steps) return std::vector<Approach>{};
+          if (collides < delay_steps) return std::vector<SpeculativeContact>{};
           return physics.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
         }),
         change_m_s_(change_m_s) {}
@@ -162,7 +162,7 @@ TEST(ParticleStage, FacesMoveWithTheirPiecesAfterTheImpactSeparatesThem) {
     const Vec3 velocity_W = face.emission.motion(face.corners_W[0]);
     EXPECT_LT((velocity_W - Vec3(0, 3, 6)).norm(), 1e-9)
         << "the parent's, and what the impact added";
-    EXPECT_NEAR(face.emission.parting_m_s, 5, 1e-9);
+    EXPECT_NEAR(face.emission.opening_speed_m_s, 5, 1e-9);
   }
   const Vec3 corner = box.vertices[box.face_corners(0)[0]];
   EXPECT_LT((run.particles->faces[0].corners_W[0] - corner).norm(), 1e-9)
@@ -176,7 +176,7 @@ TEST(ParticleStage, PiecesThatKeepTheSpinOfTheirSolidHaveNoSeparationSpeed) {
   ASSERT_EQ(run.particles->faces.size(), 2u);
   for (const RecordingParticles::Face& face : run.particles->faces) {
     EXPECT_GT((face.emission.motion(face.corners_W[0]) - Vec3(0, 0, 2)).norm(), 0.1);
-    EXPECT_LT(face.emission.parting_m_s, 1e-9);
+    EXPECT_LT(face.emission.opening_speed_m_s, 1e-9);
   }
 }
 
@@ -234,7 +234,7 @@ TEST(ParticleStage, PiecesTooSmallForBodiesBecomeChipsAndTheirMassStays) {
   ParticleRun run(1.0 / 60, 1.5);
   const FramePtr frame = run.simulation->next();
   ASSERT_EQ(run.particles->chips.size(), 2u);
-  const Chip& chip = run.particles->chips[0];
+  const DebrisPiece& chip = run.particles->chips[0];
   EXPECT_LT((chip.center_W - Vec3(0.5, 0.5, 0.5)).norm(), 1e-9);
   EXPECT_NEAR(4.0 / 3 * 3.14159265358979 * std::pow(chip.radius_m, 3), 1, 1e-9);
   EXPECT_NEAR(chip.velocity_W.z(), 2, 1e-9);
@@ -269,8 +269,9 @@ struct BlastRun {
     auto owned = std::make_unique<RecordingParticles>();
     particles = owned.get();
     simulation = std::make_unique<Simulation>(
-        std::move(scene),
-        std::make_unique<ScriptedPhysics>([](const auto&, int) { return std::vector<Approach>{}; }),
+        std::move(scene), std::make_unique<ScriptedPhysics>([](const auto&, int) {
+          return std::vector<SpeculativeContact>{};
+        }),
         std::make_unique<ScriptedBreaker>(1.0), std::move(owned));
     for (int i = 0; i < 6; ++i) simulation->next();
   }
@@ -282,7 +283,7 @@ TEST(ParticleStage, FacesThatABlastExposesMoveWithTheirPieces) {
   BlastRun run(0);
   ASSERT_EQ(run.particles->faces.size(), 2u);
   for (const RecordingParticles::Face& face : run.particles->faces) {
-    EXPECT_GT(face.emission.parting_m_s, 0.5);
+    EXPECT_GT(face.emission.opening_speed_m_s, 0.5);
     EXPECT_GT(face.emission.motion(face.corners_W[0]).x(), 0.5);
   }
 }
@@ -290,7 +291,7 @@ TEST(ParticleStage, FacesThatABlastExposesMoveWithTheirPieces) {
 TEST(ParticleStage, ABlastPushesChipsThatItMakes) {
   BlastRun run(1.5);
   ASSERT_EQ(run.particles->chips.size(), 2u);
-  const Chip& chip = run.particles->chips[0];
+  const DebrisPiece& chip = run.particles->chips[0];
   EXPECT_GT(chip.velocity_W.x(), 0.5);
   EXPECT_NEAR(chip.velocity_W.z(), 1, 0.1);
   EXPECT_NEAR(chip.center_W.z(), 0.05, 1e-9) << "it has flown on meanwhile";

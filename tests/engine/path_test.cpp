@@ -28,7 +28,7 @@ TEST(Path, GoesFromRestThroughItsKeysAndStaysAtTheLast) {
     EXPECT_EQ(path.at(0).shift_W, Vec3::Zero());
     for (const PathKey& key : path.keys) {
       EXPECT_LT((path.at(key.time_s).shift_W - key.shift_W).norm(), 1e-12);
-      EXPECT_LT((path.at(key.time_s).turn_W - key.turn_W).norm(), 1e-12);
+      EXPECT_LT((path.at(key.time_s).rotation_W - key.rotation_W).norm(), 1e-12);
     }
     EXPECT_EQ(path.at(100).shift_W, path.at(4).shift_W);
   }
@@ -65,7 +65,7 @@ TEST(Path, ALoopRepeatsWithoutAJump) {
   drum.loops = true;
   drum.keys = {{1, Vec3::Zero(), Vec3(0, 3.14, 0)}, {2, Vec3::Zero(), Vec3(0, 6.28, 0)}};
   for (const double t : {0.0, 0.3, 1.7, 5.9}) {
-    const double turned = (drum.at(t + 0.05).turn_W - drum.at(t).turn_W).y();
+    const double turned = (drum.at(t + 0.05).rotation_W - drum.at(t).rotation_W).y();
     EXPECT_NEAR(turned, 0.05 * 3.14, 1e-9) << t;
   }
   Path shuttle;

@@ -41,7 +41,7 @@ struct Column {
     piece.anchored = {0, 1};
     piece.bonds = {{0, 1, 3, 2, 1}};
     edit.loose.pieces = {piece};
-    carry_out(world, actor(0).key, edit);
+    apply_break(world, actor(0).key, edit);
   }
 
  private:
@@ -70,7 +70,7 @@ TEST(CarryOut, TheRemainderEqualsANewActorOfItsConvexes) {
   const double whole_J = remainder.least_J;
   remainder.least_J = 1e6;  // the value after a plan that needed more energy
   remainder.stress.settled = true;
-  remainder.stress.pressing = {{ConvexSlot(1)}, {ConvexSlot(3)}};
+  remainder.stress.mean_forces = {{ConvexSlot(1)}, {ConvexSlot(3)}};
   column.break_in_two();
   ASSERT_EQ(column.world.actors.size(), 2u);
   const Actor& left = column.actor(0);
@@ -80,8 +80,8 @@ TEST(CarryOut, TheRemainderEqualsANewActorOfItsConvexes) {
   EXPECT_EQ(left.weight.mass_kg, same.weight.mass_kg);
   EXPECT_EQ(left.volume_m3, same.volume_m3);
   EXPECT_FALSE(left.stress.settled);
-  ASSERT_EQ(left.stress.pressing.size(), 1u) << "what pressed on the rest is forgotten";
-  EXPECT_EQ(left.stress.pressing[0].convex, ConvexSlot(1));
+  ASSERT_EQ(left.stress.mean_forces.size(), 1u) << "what pressed on the rest is forgotten";
+  EXPECT_EQ(left.stress.mean_forces[0].convex, ConvexSlot(1));
   EXPECT_EQ(column.physics->bodies[0].desc.shapes.size(), 2u);
 }
 
@@ -109,14 +109,14 @@ TEST(CarryOut, SubtractsAnOverlapOnceHoweverManyOfItsConvexesAreRemoved) {
   edit.removed = {ConvexSlot(0), ConvexSlot(1)};
   const Compound whole = overlapping();
   edit.loose.pieces = {{{whole.convexes[0], whole.convexes[1]}, {0, 0}, {}, {whole.ghosts[0]}}};
-  carry_out(column.world, column.actor(0).key, edit);
+  apply_break(column.world, column.actor(0).key, edit);
   EXPECT_NEAR(column.actor(0).volume_m3, 1, 1e-12);
   EXPECT_NEAR(column.actor(0).weight.mass_kg, 1000, 1e-9);
   EXPECT_NEAR(column.actor(1).volume_m3, 3, 1e-12);
 }
 
 TEST(CarryOut, PiecesKeepTheStressMemoryAndRootKeyOfTheirActor) {
-  struct Marked final : StressMemory {};
+  struct Marked final : StressCache {};
   Column column;
   const auto memory = std::make_shared<const Marked>();
   column.actor(0).stress.memory = memory;
@@ -127,7 +127,7 @@ TEST(CarryOut, PiecesKeepTheStressMemoryAndRootKeyOfTheirActor) {
   EXPECT_EQ(piece.root_key, left.key);
   EXPECT_EQ(piece.weight.mass_kg, 2000);
   EXPECT_EQ(column.physics->bodies[piece.body.slot].desc.tag, piece.key);
-  EXPECT_EQ(column.world.ledger.debris_mass_kg, 0);
+  EXPECT_EQ(column.world.conservation.debris_mass_kg, 0);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A scripted Physics and Breaker: the world's stages under test, without solver or fracture.
+// A scripted Physics and Breaker: the world's stages under test, with the solver's impact probe
+// but without its motion, and without fracture.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +9,12 @@
 #include <vector>
 
 #include "engine/world/simulation.h"
+#include "solver/impact/event_probe.h"
 
 namespace sunder::testing {
 
-/// Bodies that fly straight on; approaches are whatever `script` says for the number of collides.
+/// Bodies that fly straight on; speculative_contacts are whatever `script` says for the number of
+/// collides.
 class ScriptedPhysics : public Physics {
  public:
   struct Body {
@@ -20,7 +23,8 @@ class ScriptedPhysics : public Physics {
     bool alive = true;
     bool paused = false;  ///< For the next solve.
   };
-  using Script = std::function<std::vector<Approach>(const ScriptedPhysics&, int collides)>;
+  using Script =
+      std::function<std::vector<SpeculativeContact>(const ScriptedPhysics&, int collides)>;
 
   explicit ScriptedPhysics(Script script) : script_(std::move(script)) {}
 
@@ -41,10 +45,10 @@ class ScriptedPhysics : public Physics {
     shapes.insert(shapes.end(), edit.added.begin(), edit.added.end());
   }
   void collide(double) override { approaches_ = script_(*this, collides_++); }
-  std::vector<Approach> approaches() override { return approaches_; }
+  std::vector<SpeculativeContact> speculative_contacts() override { return approaches_; }
   std::vector<Touch> touches(std::span<const BodyId> of) override {
     std::vector<Touch> touches;
-    for (const Approach& approach : approaches_) {
+    for (const SpeculativeContact& approach : approaches_) {
       const auto among = [&](std::uint32_t tag) {
         return std::any_of(of.begin(), of.end(),
                            [&](BodyId id) { return bodies[id.slot].desc.tag == tag; });
@@ -58,6 +62,9 @@ class ScriptedPhysics : public Physics {
                          approach.normal_W, approach.separation_m});
     }
     return touches;
+  }
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    return solver::make_event_probe(std::move(cluster));
   }
   void set_state(BodyId id, const BodyState& state) override {
     if (!bodies[id.slot].desc.is_static) bodies[id.slot].state = state;
@@ -105,16 +112,16 @@ class ScriptedPhysics : public Physics {
     }
     return table_.states();
   }
-  std::vector<ContactLoad> contact_loads() const override { return loads; }
-  std::vector<JointLoad> joint_loads() const override { return pulls; }
+  std::vector<ContactImpulse> contact_impulses() const override { return loads; }
+  std::vector<JointImpulse> joint_impulses() const override { return pulls; }
   std::vector<float> penetrations() const override { return {}; }
 
   /// An approach of the living bodies with these tags at a point, along a normal from a to b.
-  std::vector<Approach> approach(std::uint32_t tag_a, std::uint32_t tag_b, const Vec3& point_W,
-                                 const Vec3& normal_W) const {
+  std::vector<SpeculativeContact> approach(std::uint32_t tag_a, std::uint32_t tag_b,
+                                           const Vec3& point_W, const Vec3& normal_W) const {
     const Body *a = find(tag_a), *b = find(tag_b);
     if (!a || !b) return {};
-    Approach approach;
+    SpeculativeContact approach;
     approach.body_tag_a = tag_a;
     approach.body_tag_b = tag_b;
     approach.point_W = point_W;
@@ -135,8 +142,8 @@ class ScriptedPhysics : public Physics {
   std::vector<Body> bodies;
   std::vector<JointDesc> joints;  ///< All there ever were.
   std::vector<bool> cut_joints;
-  std::vector<ContactLoad> loads;  ///< What contact_loads() answers,
-  std::vector<JointLoad> pulls;    ///< and joint_loads().
+  std::vector<ContactImpulse> loads;  ///< What contact_impulses() answers,
+  std::vector<JointImpulse> pulls;    ///< and joint_impulses().
 
  private:
   static double inverse_mass(const Body& body, const Vec3& point_W, const Vec3& normal_W) {
@@ -147,7 +154,7 @@ class ScriptedPhysics : public Physics {
   }
 
   Script script_;
-  std::vector<Approach> approaches_;
+  std::vector<SpeculativeContact> approaches_;
   int collides_ = 0;
   mutable BodyTable table_;  ///< Of `bodies`, which tests change as they like.
 };
@@ -156,8 +163,9 @@ class ScriptedPhysics : public Physics {
 class ScriptedBreaker final : public Breaker {
  public:
   explicit ScriptedBreaker(double area_m2) : area_m2_(area_m2) {}
-  BreakCommand command(const Convex& convex, std::span<const Material> materials, const Hit& hit,
-                       std::uint64_t event, std::uint64_t seed) const override {
+  BreakCommand command(const Convex& convex, std::span<const Material> materials,
+                       const StructureImpact& hit, std::uint64_t event,
+                       std::uint64_t seed) const override {
     BreakCommand command;
     command.event = event;
     command.seed = seed;
@@ -173,8 +181,8 @@ class ScriptedBreaker final : public Breaker {
     }
     return edit;
   }
-  StressAnswer stress(const Structure& structure, const LoadCase& load) const override {
-    return stressed ? stressed(structure, load) : StressAnswer{};
+  StressResult stress(const Structure& structure, const LoadCase& load) const override {
+    return stressed ? stressed(structure, load) : StressResult{};
   }
 
   /// Every convex comes off, if there are several.
@@ -190,7 +198,7 @@ class ScriptedBreaker final : public Breaker {
   }
 
   /// What stress() answers.
-  std::function<StressAnswer(const Structure&, const LoadCase&)> stressed;
+  std::function<StressResult(const Structure&, const LoadCase&)> stressed;
 
  private:
   double area_m2_;

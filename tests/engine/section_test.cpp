@@ -56,7 +56,7 @@ TEST(Material, TheYieldStressIsTheLowestStressLimit) {
   material.yield_Pa = 2e8;
   EXPECT_TRUE(material.yields());
   EXPECT_TRUE(material.breaks_by_load());
-  EXPECT_EQ(material.weakest_Pa(), 2e8);
+  EXPECT_EQ(material.min_stress_limit_Pa(), 2e8);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 // Tests of recordings: a recording plays from any frame; a damaged recording plays its readable
 // part and reports the damage; a verified run that differs is reported with the frame and body.
-#include "engine/io/take/take.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -10,8 +8,9 @@
 
 #include "engine/base/random.h"
 #include "engine/io/bytes.h"
+#include "engine/io/recording/recording.h"
+#include "engine/io/recording/recording_verifier.h"
 #include "engine/io/state_hash.h"
-#include "engine/io/take/take_verifier.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
@@ -53,7 +52,7 @@ class Recording : public ::testing::Test {
         event.parent_key = index_;
         event.child_keys = {index_ + 1, index_ + 2};
         event.material = MaterialIndex(index_ % 3);
-        event.before_key = index_ / 2;
+        event.previous_key = index_ / 2;
         event.name = 2;
         event.pieces = 6;
       }
@@ -76,8 +75,8 @@ class Recording : public ::testing::Test {
         body.com_R = Vec3(0.5, k, 0.25);
         body.asleep = key % 5 == 0;
         body.is_static = key % 9 == 0;
-        body.before_key = index_ == key ? key - key % 3 : key;
-        body.name = key % 4 == 0 ? kUnnamed : static_cast<std::uint32_t>(key % 4);
+        body.previous_key = index_ == key ? key - key % 3 : key;
+        body.name = key % 4 == 0 ? kNoName : static_cast<std::uint32_t>(key % 4);
         for (std::size_t mesh = 0; mesh < 1 + key % 3; ++mesh) {
           frame.instances.push_back({MeshIndex((key + mesh) % frame.meshes->size()),
                                      static_cast<std::uint32_t>(frame.bodies.size())});
@@ -110,7 +109,7 @@ class Recording : public ::testing::Test {
 
   void record(int frames) {
     Run run(frames);
-    TakeWriter writer(path_);
+    RecordingWriter writer(path_);
     FrameSink* const sinks[] = {&writer};
     pump(run, sinks);
   }
@@ -136,7 +135,7 @@ void expect_equal_frames(const Frame& played, const Frame& run, const std::strin
     ASSERT_EQ(a.com_R, c.com_R);
     ASSERT_EQ(a.asleep, c.asleep);
     ASSERT_EQ(a.is_static, c.is_static);
-    ASSERT_EQ(a.before_key, c.before_key);
+    ASSERT_EQ(a.previous_key, c.previous_key);
     ASSERT_EQ(a.name, c.name);
   }
   ASSERT_EQ(played.instances.size(), run.instances.size()) << what;
@@ -162,7 +161,7 @@ void expect_equal_frames(const Frame& played, const Frame& run, const std::strin
     EXPECT_EQ(a.parent_key, b.parent_key) << what;
     EXPECT_EQ(a.child_keys, b.child_keys) << what;
     EXPECT_EQ(a.material.value, b.material.value) << what;
-    EXPECT_EQ(a.before_key, b.before_key) << what;
+    EXPECT_EQ(a.previous_key, b.previous_key) << what;
     EXPECT_EQ(a.name, b.name) << what;
     EXPECT_EQ(a.pieces, b.pieces) << what;
   }
@@ -172,7 +171,7 @@ void expect_equal_frames(const Frame& played, const Frame& run, const std::strin
 
 TEST_F(Recording, PlaysWhatWasRecorded) {
   record(150);
-  TakeReader take(path_);
+  RecordingReader take(path_);
   EXPECT_EQ(take.frames(), 150u);
   EXPECT_TRUE(take.is_complete());
   Run run(150);
@@ -187,7 +186,7 @@ TEST_F(Recording, PlaysWhatWasRecorded) {
 
 TEST_F(Recording, PlaysFromAnyFrameOn) {
   record(300);
-  TakeReader take(path_);
+  RecordingReader take(path_);
   std::vector<FramePtr> run;
   Run source(300);
   while (FramePtr frame = source.next()) run.push_back(std::move(frame));
@@ -214,10 +213,10 @@ TEST_F(Recording, TheSameFramesGiveTheSameBytes) {
 TEST_F(Recording, OfAKilledRunPlaysEveryFrameWritten) {
   Run run(90);
   {
-    TakeWriter writer(path_);
+    RecordingWriter writer(path_);
     while (const FramePtr frame = run.next()) writer.take(frame);
   }  // finish() is not called
-  TakeReader take(path_);
+  RecordingReader take(path_);
   EXPECT_FALSE(take.is_complete());
   EXPECT_EQ(take.frames(), 90u);
   take.seek(89);
@@ -228,7 +227,7 @@ TEST_F(Recording, OfAKilledRunPlaysEveryFrameWritten) {
 /// Plays the recording; returns the number of frames, or −1 if the file was refused.
 int play_all(const fs::path& path, std::string& message) {
   try {
-    TakeReader take(path);
+    RecordingReader take(path);
     int frames = 0;
     while (const FramePtr frame = take.next()) {
       EXPECT_EQ(frame->index, static_cast<std::uint64_t>(frames));
@@ -286,11 +285,11 @@ TEST_F(Recording, CorruptAnywherePlaysWhatIsReadableAndReportsTheDamage) {
 }
 
 TEST_F(Recording, AFileThatIsNoRecordingIsRefused) {
-  EXPECT_THROW(TakeReader("/nowhere/at/all.take"), InputError);
-  EXPECT_THROW(TakeReader{fs::temp_directory_path()}, InputError);
+  EXPECT_THROW(RecordingReader("/nowhere/at/all.take"), InputError);
+  EXPECT_THROW(RecordingReader{fs::temp_directory_path()}, InputError);
   write_file(path_, std::vector<std::byte>(100));
-  EXPECT_THROW(TakeReader{path_}, InputError);
-  EXPECT_THROW(TakeWriter("/proc/no/such.take"), FileError);
+  EXPECT_THROW(RecordingReader{path_}, InputError);
+  EXPECT_THROW(RecordingWriter("/proc/no/such.take"), FileError);
 }
 
 TEST_F(Recording, OfAnUnreadableVersionIsRefusedWithAMessage) {
@@ -307,13 +306,13 @@ TEST_F(Recording, OfAnUnreadableVersionIsRefusedWithAMessage) {
 // Version 5 is version 6 without names and without the keys that bodies came from; this recording
 // is of a stack with a shot.
 TEST_F(Recording, OfTheVersionBeforeIsPlayedWithoutNames) {
-  TakeReader take(SUNDER_TAKES_FOLDER "/whole");
+  RecordingReader take(SUNDER_TAKES_FOLDER "/whole");
   std::size_t frames = 0;
   while (const FramePtr frame = take.next()) {
     EXPECT_EQ(frame->names, nullptr);
     for (const FrameBody& body : frame->bodies) {
-      ASSERT_EQ(body.before_key, body.key);
-      ASSERT_EQ(body.name, kUnnamed);
+      ASSERT_EQ(body.previous_key, body.key);
+      ASSERT_EQ(body.name, kNoName);
     }
     ++frames;
   }
@@ -323,7 +322,7 @@ TEST_F(Recording, OfTheVersionBeforeIsPlayedWithoutNames) {
 }
 
 TEST_F(Recording, OfTheVersionBeforeIsPlayedWithDefaultLight) {
-  TakeReader take(fs::path(SUNDER_FRAMES_FOLDER) / "version_5.take");
+  RecordingReader take(fs::path(SUNDER_FRAMES_FOLDER) / "version_5.take");
   EXPECT_TRUE(take.is_complete());
   std::uint64_t frames = 0;
   while (const FramePtr frame = take.next()) {
@@ -338,8 +337,8 @@ TEST_F(Recording, OfTheVersionBeforeIsPlayedWithDefaultLight) {
 
 TEST_F(Recording, ARunOfTheSameFramesHasNoDifference) {
   record(40);
-  TakeReader take(path_);
-  TakeVerifier verifier(take);
+  RecordingReader take(path_);
+  RecordingVerifier verifier(take);
   FrameSink* const sinks[] = {&verifier};
   Run run(40);
   pump(run, sinks);
@@ -349,8 +348,8 @@ TEST_F(Recording, ARunOfTheSameFramesHasNoDifference) {
 
 TEST_F(Recording, ADifferentRunIsReportedByItsFirstFrameAndBody) {
   record(40);
-  TakeReader take(path_);
-  TakeVerifier verifier(take);
+  RecordingReader take(path_);
+  RecordingVerifier verifier(take);
   FrameSink* const sinks[] = {&verifier};
   Run run(40, 1e-13, 31);
   pump(run, sinks);
@@ -360,8 +359,8 @@ TEST_F(Recording, ADifferentRunIsReportedByItsFirstFrameAndBody) {
 
 TEST_F(Recording, ALongerRunIsReportedWhereTheRecordingEnds) {
   record(10);
-  TakeReader take(path_);
-  TakeVerifier verifier(take);
+  RecordingReader take(path_);
+  RecordingVerifier verifier(take);
   FrameSink* const sinks[] = {&verifier};
   Run run(12);
   pump(run, sinks);

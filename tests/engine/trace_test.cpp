@@ -19,20 +19,20 @@ namespace {
 TEST(Trace, KeepsSpansOnlyWhileItIsOn) {
   { const TraceSpan before("before"); }
   start_trace();
-  EXPECT_EQ(traced_span(), nullptr);
+  EXPECT_EQ(current_span_name(), nullptr);
   {
     const TraceSpan outer("outer");
     { const TraceSpan inner("inner"); }
-    EXPECT_STREQ(traced_span(), "outer");
+    EXPECT_STREQ(current_span_name(), "outer");
   }
-  const std::vector<TracedSpan> spans = take_trace();
+  const std::vector<TracedSpan> spans = stop_trace();
   { const TraceSpan after("after"); }
   ASSERT_EQ(spans.size(), 2u);
   EXPECT_STREQ(spans[0].name, "inner");
   EXPECT_STREQ(spans[1].name, "outer");
   EXPECT_GE(spans[0].begin_us, spans[1].begin_us);
   EXPECT_LE(spans[0].begin_us + spans[0].duration_us, spans[1].begin_us + spans[1].duration_us);
-  EXPECT_TRUE(take_trace().empty());
+  EXPECT_TRUE(stop_trace().empty());
 }
 
 TEST(Trace, WorkOfOtherThreadsInALoopHasTheNameOfTheEnclosingSpan) {
@@ -47,7 +47,7 @@ TEST(Trace, WorkOfOtherThreadsInALoopHasTheNameOfTheEnclosingSpan) {
     });
   }
   set_threads(0);
-  for (const TracedSpan& span : take_trace()) EXPECT_STREQ(span.name, "loop");
+  for (const TracedSpan& span : stop_trace()) EXPECT_STREQ(span.name, "loop");
 }
 
 TEST(Trace, IsWrittenAsEventsThatBrowsersOpen) {

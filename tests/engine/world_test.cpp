@@ -148,8 +148,10 @@ TEST(BreakStage, BreaksAWeakSolidBesideOneThatIsTooStrong) {
   scene.materials[2].name = "granite";
   scene.materials[2].strength_Ns = 1e9;
   ScriptedRun run(scene, [](const ScriptedPhysics& physics, int) {
-    std::vector<Approach> both = physics.approach(2, 0, Vec3(0.5, 0.5, 1), Vec3(0, 0, -1));
-    for (const Approach& other : physics.approach(2, 1, Vec3(3.5, 0.5, 1), Vec3(0, 0, -1)))
+    std::vector<SpeculativeContact> both =
+        physics.approach(2, 0, Vec3(0.5, 0.5, 1), Vec3(0, 0, -1));
+    for (const SpeculativeContact& other :
+         physics.approach(2, 1, Vec3(3.5, 0.5, 1), Vec3(0, 0, -1)))
       both.push_back(other);
     return both;
   });
@@ -193,7 +195,7 @@ TEST(BreakStage, DefersBreaksOverTheBudgetAndLosesNoEnergy) {
                                          ball_at(Vec3(-0.25, 0.5, -1.5), Vec3(20, 0, 0))});
   scene.limits.parts_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
   const auto script = [](const ScriptedPhysics& physics, int) {
-    std::vector<Approach> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
+    std::vector<SpeculativeContact> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
     const auto second = physics.approach(3, 1, Vec3(0, 0.5, -1.5), Vec3(1, 0, 0));
     both.insert(both.end(), second.begin(), second.end());
     return both;
@@ -220,7 +222,7 @@ TEST(BreakStage, PlansNoBreakTwiceInAStepThatBreaksElsewhere) {
   const Scene scene = scene_of({breaks, holds}, {ball_at(Vec3(-0.25, 0.5, 0.5), Vec3(30, 0, 0)),
                                                  ball_at(Vec3(-0.25, 0.5, -1.5), Vec3(0.9, 0, 0))});
   ScriptedRun run(scene, [](const ScriptedPhysics& physics, int) {
-    std::vector<Approach> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
+    std::vector<SpeculativeContact> both = physics.approach(2, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0));
     const auto second = physics.approach(3, 1, Vec3(0, 0.5, -1.5), Vec3(1, 0, 0));
     both.insert(both.end(), second.begin(), second.end());
     return both;
@@ -248,7 +250,7 @@ TEST(BreakStage, BreaksDeferredImpactsBeforeNewHarderOnes) {
   scene.limits.parts_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
   bool all_meet = false;  // the third ball is left out at first
   ScriptedRun run(scene, [&](const ScriptedPhysics& physics, int) {
-    std::vector<Approach> found;
+    std::vector<SpeculativeContact> found;
     for (std::uint32_t i = 0; i < (all_meet ? 3u : 2u); ++i) {
       const auto one = physics.approach(3 + i, i, Vec3(0, 0.5, 0.5 - 3.0 * i), Vec3::UnitX());
       found.insert(found.end(), one.begin(), one.end());
@@ -292,7 +294,8 @@ TEST(Simulation, GivesAFrameEverySixtiethOfASecondUntilTheEnd) {
   Scene scene = scene_of({}, {ball_at(Vec3::Zero(), Vec3(1, 0, 0))});
   scene.duration_s = 0.5;
   scene.accuracy.dt_s = 1.0 / 240;
-  ScriptedRun run(scene, [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+  ScriptedRun run(scene,
+                  [](const ScriptedPhysics&, int) { return std::vector<SpeculativeContact>{}; });
   int frames = 0;
   while (const FramePtr frame = run.simulation.next()) {
     EXPECT_NEAR(frame->time_s, frames / 60.0, 1e-12);
@@ -306,7 +309,8 @@ TEST(Simulation, FiresShotsAtTheirTimeAndCountsTheirMassFromTheStart) {
   Scene scene = scene_of({}, {});
   scene.shots = {{0.1, ball_at(Vec3::Zero(), Vec3(1, 0, 0))}};
   scene.duration_s = 0.2;
-  ScriptedRun run(scene, [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+  ScriptedRun run(scene,
+                  [](const ScriptedPhysics&, int) { return std::vector<SpeculativeContact>{}; });
   const FramePtr first = run.simulation.next();
   EXPECT_TRUE(first->bodies.empty());
   FramePtr last = first;
@@ -322,19 +326,19 @@ TEST(Simulation, NamesTheSolidAndTheFormerBodyOfEachPiece) {
   scene.shots = {{0.02, ball_at(Vec3(0, 9, 0), Vec3(1, 0, 0))}};
   scene.shots[0].ball.name = "";
   ScriptedRun run(scene, always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
-  EXPECT_EQ(run.simulation.next()->bodies[0].before_key, 0u);
+  EXPECT_EQ(run.simulation.next()->bodies[0].previous_key, 0u);
   FramePtr frame = run.simulation.next();
   EXPECT_EQ(*frame->names, (std::vector<std::string>{"front", scene.balls[0].name, "shot.0"}));
   ASSERT_EQ(frame->bodies.size(), 3u) << "the ball, then pieces";
-  EXPECT_EQ(frame->bodies[0].before_key, 1u);
+  EXPECT_EQ(frame->bodies[0].previous_key, 1u);
   EXPECT_EQ(frame->bodies[0].name, 1u);
   for (const std::size_t piece : {1, 2}) {
-    EXPECT_EQ(frame->bodies[piece].before_key, 0u);
+    EXPECT_EQ(frame->bodies[piece].previous_key, 0u);
     EXPECT_EQ(frame->bodies[piece].name, 0u);
   }
   frame = run.simulation.next();
   ASSERT_EQ(frame->bodies.size(), 4u);
-  for (const FrameBody& body : frame->bodies) EXPECT_EQ(body.before_key, body.key);
+  for (const FrameBody& body : frame->bodies) EXPECT_EQ(body.previous_key, body.key);
   EXPECT_EQ(frame->bodies[3].name, 2u) << "of the shot";
 }
 
@@ -342,7 +346,8 @@ TEST(Simulation, MovesItsCameraAlongItsKeys) {
   Scene scene = scene_of({}, {});
   scene.view.target_W = {0, 1, 0};
   scene.view_keys = {{0, Vec3(0, 0, 10), {}, {}}, {0.1, Vec3(4, 0, 10), {}, 0.5}};
-  ScriptedRun run(scene, [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; });
+  ScriptedRun run(scene,
+                  [](const ScriptedPhysics&, int) { return std::vector<SpeculativeContact>{}; });
   FramePtr frame;
   for (int i = 0; i <= 3; ++i) frame = run.simulation.next();
   EXPECT_NEAR(frame->view.eye_W.x(), 2, 1e-9) << "half-way";

@@ -19,13 +19,13 @@ namespace {
 
 BreakCase example(const char* solid = "voronoi:7") {
   BreakCase example{make_solid(solid), {}};
-  example.compound.anchored[2] = kAnchoredAllRound;
+  example.compound.anchored[2] = kAnchoredAllSides;
   example.command.event = 0xfedcba9876543210;
   example.command.seed = 5;
   example.command.pattern.kind = PatternSpec::Kind::kVoronoi;
   example.command.pattern.cells = 30;
   example.command.pattern.file = "a file with \"quotes\"";
-  example.command.spared = {MaterialIndex(2u), MaterialIndex(4u)};
+  example.command.unbreakable = {MaterialIndex(2u), MaterialIndex(4u)};
   example.command.smallest_m3 = 0.01;
   example.command.stretch_P = Vec3(1, 1. / 3, 1).asDiagonal();
   example.command.X_RP.position = Vec3(.7, .1, .1);
@@ -44,7 +44,7 @@ TEST(CaseFile, replays_to_the_same_bits) {
     EXPECT_EQ(hash_of(read.compound), hash_of(written.compound));
     EXPECT_EQ(read.compound.anchored, written.compound.anchored);
     EXPECT_EQ(read.command.pattern.file, written.command.pattern.file);
-    EXPECT_EQ(read.command.spared, written.command.spared);
+    EXPECT_EQ(read.command.unbreakable, written.command.unbreakable);
     EXPECT_EQ(read.command.smallest_m3, written.command.smallest_m3);
     const BreakPlan again = break_compound(read.compound, read.command);
     EXPECT_TRUE(again.broke());
@@ -86,7 +86,7 @@ TEST(CaseFile, is_written_where_a_break_fails_and_says_the_same) {
     EXPECT_EQ(breaker->plan(Structure(solid), command).loose.failed, 1u);
   }
   EXPECT_EQ(log->failed(), 0u);  // none of them has been carried out
-  breaker->note_carried_out(breaker->plan(Structure(solid), command).loose);
+  breaker->on_applied(breaker->plan(Structure(solid), command).loose);
   EXPECT_EQ(log->failed(), 1u);
   EXPECT_DOUBLE_EQ(log->failed_m3(), 1.5);
   EXPECT_EQ(log->files(), 2u);

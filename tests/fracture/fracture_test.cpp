@@ -146,7 +146,7 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
   Material glass;
   glass.pattern = web(6, 12);
   glass.impact_radius_m = 0.4;
-  const Hit hit{Vec3(0.3, -0.2, 0.003), Vec3(0.6, 0, -0.8), ConvexSlot(0), 1};
+  const StructureImpact hit{Vec3(0.3, -0.2, 0.003), Vec3(0.6, 0, -0.8), ConvexSlot(0), 1};
   const BreakCommand command =
       breaker->command(*pane.convexes[0], std::span(&glass, 1), hit, 1, 42);
   const Vec3 axis = command.X_RP.rotation * Vec3::UnitY();
@@ -172,7 +172,7 @@ TEST(Fracture, uses_the_pattern_of_the_impacts_strength) {
   stone.impact_radius_m = 0.5;
   stone.stronger = {{100, voronoi(20), 0.7}, {1000, web(3, 6), 0.9}};
   const auto radius = [&](double energy_J) {
-    const Hit hit{Vec3(0, 1, 0), Vec3(0, -1, 0), ConvexSlot(0), energy_J};
+    const StructureImpact hit{Vec3(0, 1, 0), Vec3(0, -1, 0), ConvexSlot(0), energy_J};
     return breaker->command(*box.convexes[0], std::span(&stone, 1), hit, 1, 1);
   };
   EXPECT_EQ(radius(99).radius_m, 0.5);
@@ -188,8 +188,8 @@ TEST(Fracture, spares_the_materials_that_do_not_break) {
   materials[0].pattern = voronoi(10);
   materials[2].pattern = voronoi(10);
   const BreakCommand command =
-      make_pattern_breaker()->command(*box.convexes[0], materials, Hit{}, 1, 1);
-  EXPECT_EQ(command.spared, (std::vector{MaterialIndex(1u), MaterialIndex(3u)}));
+      make_pattern_breaker()->command(*box.convexes[0], materials, StructureImpact{}, 1, 1);
+  EXPECT_EQ(command.unbreakable, (std::vector{MaterialIndex(1u), MaterialIndex(3u)}));
 }
 
 /// Convexes side by side, a metre wide each, of the materials given.
@@ -205,7 +205,7 @@ Compound row_of(std::initializer_list<std::uint32_t> materials) {
 TEST(Fracture, parts_what_it_breaks_from_what_it_spares_along_the_bond) {
   const Compound row = row_of({0, 1});
   BreakCommand command = impact(eighths(), Vec3(.5, .5, .5), 0.6);
-  command.spared = {MaterialIndex(1u)};
+  command.unbreakable = {MaterialIndex(1u)};
   const BreakPlan plan = break_compound(row, command);
   EXPECT_EQ(broken_truth(row, plan), "");
   ASSERT_EQ(plan.pieces.size(), 9u);
@@ -224,7 +224,7 @@ TEST(Fracture, charges_a_face_it_spares_to_each_of_the_materials_that_broke_off_
                                 {make_box(Vec3(1, 0, 0), Vec3(3, 1, 1)), MaterialIndex(2u)},
                                 {make_box(Vec3(0, -1, 0), Vec3(3, 0, 1)), MaterialIndex(1u)}});
   BreakCommand command = impact(voronoi(9), Vec3(1, .5, .5), kEndless);
-  command.spared = {MaterialIndex(1u)};
+  command.unbreakable = {MaterialIndex(1u)};
   const BreakPlan plan = break_compound(bar, command);
   double area[3] = {};
   for (const ExposedFace& face : plan.exposed) {
@@ -239,7 +239,7 @@ TEST(Fracture, charges_a_face_it_spares_to_each_of_the_materials_that_broke_off_
 TEST(Fracture, holds_together_what_it_spares_and_what_is_out_of_its_reach) {
   const Compound row = row_of({1, 1, 0, 1, 0, 0});
   BreakCommand command = impact(eighths(), Vec3(2.5, .5, .5), 0.9);
-  command.spared = {MaterialIndex(1u)};
+  command.unbreakable = {MaterialIndex(1u)};
   const BreakPlan plan = break_compound(row, command);
   EXPECT_EQ(broken_truth(row, plan), "");
   std::vector<std::vector<ConvexPtr>> whole;

@@ -73,8 +73,8 @@ TEST(Ghosts, of_a_column_under_a_roof_join_them_and_weigh_the_overlap_once) {
   EXPECT_EQ(find_islands(hall), (std::vector<std::uint32_t>{0, 0, 0}));
   EXPECT_NEAR(volume(hall), 3 + 3 + 21, 1e-12);
   const std::vector<Material> materials(1);
-  EXPECT_NEAR(weigh(hall, materials).mass_kg, 27 * 2000, 1e-8);
-  EXPECT_NEAR(weigh(hall, materials).com_R.x(), 2.5, 1e-12);
+  EXPECT_NEAR(mass_of(hall, materials).mass_kg, 27 * 2000, 1e-8);
+  EXPECT_NEAR(mass_of(hall, materials).com_R.x(), 2.5, 1e-12);
 }
 
 TEST(Ghosts, faces_have_the_names_of_the_faces_they_lie_in) {
@@ -167,8 +167,8 @@ TEST(Ghosts, weigh_an_overlap_as_the_first_of_its_materials) {
   materials[1].density_kg_m3 = 3000;
   const Part light = part(Vec3(0, 0, 0), Vec3(2, 1, 1), 0);
   const Part heavy = part(Vec3(1, 0, 0), Vec3(3, 1, 1), 1);
-  EXPECT_NEAR(weigh(make_compound({light, heavy}), materials).mass_kg, 2000 + 3000, 1e-9);
-  EXPECT_NEAR(weigh(make_compound({heavy, light}), materials).mass_kg, 1000 + 6000, 1e-9);
+  EXPECT_NEAR(mass_of(make_compound({light, heavy}), materials).mass_kg, 2000 + 3000, 1e-9);
+  EXPECT_NEAR(mass_of(make_compound({heavy, light}), materials).mass_kg, 1000 + 6000, 1e-9);
 }
 
 TEST(Ghosts, keep_the_truths_when_a_column_breaks_under_its_roof) {

@@ -19,22 +19,27 @@ namespace {
 
 constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
 constexpr double kStrength_Pa = 1e6;
+constexpr MaterialIndex kStone(0);
 
 struct Result {
   Compound stays;
   std::vector<Compound> loose;
 };
 
-/// Asks until the answer is settled, as a simulation does.
+/// Asks until the answer is settled, as a simulation does; loads act on what is nearest to them
+/// until that comes off.
 Result under_load(const Compound& compound, std::span<const Material> materials,
-                  const std::vector<Load>& loads, const Vec3& gravity_R) {
+                  const std::vector<AppliedForce>& loads, const Vec3& gravity_R) {
   Structure structure(compound);
   Result result;
-  StressMemoryPtr memory;
+  StressCachePtr memory;
   for (int step = 0; step < 50; ++step) {
-    std::vector<Load> left = loads;
-    std::erase_if(left, [&](const Load& load) { return !structure.has(load.convex); });
-    const StressAnswer answer =
+    std::vector<AppliedForce> left;
+    for (AppliedForce load : loads) {
+      load.convex = nearest(structure, load.point_R);
+      if (result.loose.empty()) left.push_back(load);
+    }
+    const StressResult answer =
         break_by_stress(structure, {materials, left, gravity_R, Vec3::Zero(), kPlenty, memory});
     structure.apply(answer.edit);
     for (const Compound& piece : answer.edit.loose.pieces) result.loose.push_back(piece);
@@ -60,8 +65,8 @@ double volume_of(const Result& result) {
 
 /// A post of 0.4 m x 0.4 m reaches 0.2 m into a slab above it; the slab is held by its top.
 Compound slab_and_post(bool post_first) {
-  const Part slab{make_box(Vec3(-1, 0, -1), Vec3(1, 0.5, 1)), {}, anchor_side(1, true)};
-  const Part post{make_box(Vec3(-0.2, -1.3, -0.2), Vec3(0.2, 0.2, 0.2)), {}};
+  const Part slab{make_box(Vec3(-1, 0, -1), Vec3(1, 0.5, 1)), kStone, anchor_side(1, true)};
+  const Part post{make_box(Vec3(-0.2, -1.3, -0.2), Vec3(0.2, 0.2, 0.2)), kStone};
   return post_first ? make_compound({post, slab}) : make_compound({slab, post});
 }
 
@@ -116,7 +121,7 @@ Compound roof_on_posts(bool roof_first) {
                        MaterialIndex(0), anchor_side(1, false)});
     }
   }
-  Part roof{make_box(Vec3(-2.5, 2, -2), Vec3(2.5, 2.3, 2)), MaterialIndex(1)};
+  Part roof{make_box(Vec3(-2.5, 2, -2), Vec3(2.5, 3, 2)), MaterialIndex(1)};
   parts.insert(roof_first ? parts.begin() : parts.end(), std::move(roof));
   return make_compound(std::move(parts));
 }
@@ -128,19 +133,19 @@ TEST(OpenOverlap, ARoofHeldByOverlapsAloneFallsWhenItIsTurnedOverAndTooHeavy) {
     materials[1] = materials[0];
     materials[1].density_kg_m3 = 9000;
     const Compound compound = roof_on_posts(roof_first);
-    // The later part is cut: posts below the roof, or the roof around the posts, whose sides then
-    // hold it as well.
-    const double section_m2 = 4 * (0.2 * 0.2 + (roof_first ? 0 : 4 * 0.2 * 0.1));
-    const double roof_kg = 9000 * 5 * 4 * 0.3;
+    // The later part is cut: posts below the roof, which then tears off at 0.95 of this load, or
+    // the roof around the posts, whose bonds then bend: 0.55.
+    const double section_m2 = 4 * 0.2 * 0.2;
+    const double roof_kg = 9000 * 5 * 4 * 1.0;
     const double falls_m_s2 = kStrength_Pa * section_m2 / roof_kg;
-    const double mass_kg = weigh(compound, materials).mass_kg;
+    const double mass_kg = mass_of(compound, materials).mass_kg;
     const Result held = under_load(compound, materials, {}, Vec3(0, 0.5 * falls_m_s2, 0));
-    const Result torn = under_load(compound, materials, {}, Vec3(0, 1.5 * falls_m_s2, 0));
+    const Result torn = under_load(compound, materials, {}, Vec3(0, 1.2 * falls_m_s2, 0));
     EXPECT_TRUE(held.loose.empty());
     EXPECT_FALSE(torn.loose.empty());
     for (const Result* result : {&held, &torn}) {
-      double kg = weigh(result->stays, materials).mass_kg;
-      for (const Compound& piece : result->loose) kg += weigh(piece, materials).mass_kg;
+      double kg = mass_of(result->stays, materials).mass_kg;
+      for (const Compound& piece : result->loose) kg += mass_of(piece, materials).mass_kg;
       EXPECT_NEAR(kg, mass_kg, 1e-9 * mass_kg) << roof_first;
       EXPECT_NEAR(volume_of(*result), volume(compound), 1e-11) << roof_first;
     }
@@ -149,9 +154,9 @@ TEST(OpenOverlap, ARoofHeldByOverlapsAloneFallsWhenItIsTurnedOverAndTooHeavy) {
 
 TEST(OpenOverlap, ABeamThroughAWallIsHeldByTheSurfaceInIt) {
   // 0.2 m x 0.2 m, through a wall of 0.3 m: a surface of 0.24 m² in shear.
-  const Compound compound =
-      make_compound({{make_box(Vec3(-1, -1, -0.15), Vec3(1, 1, 0.15)), {}, anchor_side(1, false)},
-                     {make_box(Vec3(-0.1, -0.1, -1), Vec3(0.1, 0.1, 1)), {}}});
+  const Compound compound = make_compound(
+      {{make_box(Vec3(-1, -1, -0.15), Vec3(1, 1, 0.15)), kStone, anchor_side(1, false)},
+       {make_box(Vec3(-0.1, -0.1, -1), Vec3(0.1, 0.1, 1)), kStone}});
   std::vector<Material> materials = weightless();
   materials[0].shear_Pa = kStrength_Pa;
   const double slips_N = materials[0].shear_Pa * 4 * 0.2 * 0.3;
@@ -181,7 +186,7 @@ TEST(OpenOverlap, OpeningOneOverlapAfterTheOtherKeepsVolumeAndHoldsAllTogether) 
     std::vector<Material> materials = stone(kStrength_Pa);
     materials.push_back(materials[0]);
     materials[1].density_kg_m3 = 100;
-    const double kg = weigh(compound, materials).mass_kg, m3 = volume(compound);
+    const double kg = mass_of(compound, materials).mass_kg, m3 = volume(compound);
     Structure structure(compound);
     for (int opened = 0; opened < 200; ++opened) {
       const Compound now = structure.compound();
@@ -192,7 +197,7 @@ TEST(OpenOverlap, OpeningOneOverlapAfterTheOtherKeepsVolumeAndHoldsAllTogether) 
       structure.apply(open_overlap(structure, slots[pair->of[0]], slots[pair->of[1]]));
       const Compound after = structure.compound();
       ASSERT_NEAR(volume(after), m3, 1e-9) << seed;
-      ASSERT_NEAR(weigh(after, materials).mass_kg, kg, 1e-9 * kg) << seed;
+      ASSERT_NEAR(mass_of(after, materials).mass_kg, kg, 1e-9 * kg) << seed;
     }
     const Compound after = structure.compound();
     EXPECT_TRUE(after.ghosts.empty()) << seed;

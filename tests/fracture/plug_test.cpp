@@ -29,8 +29,8 @@ Material brick() {
 }
 
 /// A ball of 0.4 m and 2.1 t that strikes the middle of a wall of 0.4 m along z.
-Hit shot(double speed_m_s, double radius_m = 0.4, double thickness_m = 0.4) {
-  Hit hit;
+StructureImpact shot(double speed_m_s, double radius_m = 0.4, double thickness_m = 0.4) {
+  StructureImpact hit;
   hit.point_R = Vec3(0.1, 0.2, 0);
   hit.direction_R = Vec3::UnitZ();
   hit.striker_kg = 2091;
@@ -71,7 +71,7 @@ TEST(Plug, goes_through_above_the_limit_and_as_deep_as_the_energy_lasts_below) {
   ASSERT_TRUE(above);
   EXPECT_TRUE(above->through);
   EXPECT_NEAR(above->energy_J, limit_J, 1e-6 * limit_J);
-  const Hit weak = shot(0.5 * limit_m_s);
+  const StructureImpact weak = shot(0.5 * limit_m_s);
   const auto below = make_plug(brick(), weak, Vec3::UnitZ(), X_RP);
   ASSERT_TRUE(below);
   EXPECT_FALSE(below->through);
@@ -81,7 +81,7 @@ TEST(Plug, goes_through_above_the_limit_and_as_deep_as_the_energy_lasts_below) {
 
 TEST(Plug, needs_a_solid_that_goes_on_around_it) {
   Pose X_RP;
-  Hit hit = shot(40);
+  StructureImpact hit = shot(40);
   hit.confined = false;
   EXPECT_FALSE(make_plug(brick(), hit, Vec3::UnitZ(), X_RP));
   hit = shot(40);
@@ -103,7 +103,7 @@ TEST(Plug, leaves_a_hole_and_keeps_the_volume) {
     Random random(seed, 77);
     const double thickness_m = random.uniform(0.1, 0.6), radius_m = random.uniform(0.1, 0.5);
     const Compound wall = box_compound(Vec3(-3, -1.5, 0), Vec3(3, 1.5, thickness_m));
-    Hit hit = shot(random.uniform(5, 100), radius_m, thickness_m);
+    StructureImpact hit = shot(random.uniform(5, 100), radius_m, thickness_m);
     const Vec3 tilt(random.uniform(-.3, .3), random.uniform(-.3, .3), 1);
     hit.direction_R = tilt.normalized();
     hit.thickness_m = thickness_m / hit.direction_R.z();
@@ -124,7 +124,7 @@ TEST(Plug, without_a_pattern_takes_the_convexes_in_its_way) {
   chunks.pattern.kind = PatternSpec::Kind::kNone;
   const std::vector<Material> materials{chunks};
   const Compound wall = make_solid("grid:9,9,1");
-  Hit hit = shot(40, 1.4, 1);
+  StructureImpact hit = shot(40, 1.4, 1);
   hit.point_R = Vec3(4.5, 4.5, 0);
   hit.volume_m3 = 81;
   for (Vec3& corner : hit.section_R) corner += hit.point_R - Vec3(0.1, 0.2, 0);
@@ -171,7 +171,7 @@ TEST(Plug, has_rings_of_cracks_around_it_that_are_no_regular_polygons) {
 
 TEST(Detail, is_what_a_tenth_of_the_energy_pays_for) {
   const Material material = brick();
-  Hit hit;
+  StructureImpact hit;
   hit.reached_m3 = 1;
   const double radius_m = 1;
   int before = 0;
@@ -198,7 +198,7 @@ TEST(Detail, is_what_a_tenth_of_the_energy_pays_for) {
 }
 
 TEST(Detail, of_a_web_goes_down_to_three_spokes_and_a_ring) {
-  Hit hit;
+  StructureImpact hit;
   hit.reached_m3 = 0.006;
   hit.energy_J = 1e-3;
   PatternSpec pattern;

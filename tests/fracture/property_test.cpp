@@ -184,7 +184,7 @@ TEST(Truths, hold_where_some_materials_do_not_break) {
       Random random(seed, 41);
       const Compound solid = mixed(random_solid(random, seed), random);
       BreakCommand command = random_impact(random, solid, seed + 1);
-      command.spared.assign(std::begin(kWhole), std::end(kWhole));
+      command.unbreakable.assign(std::begin(kWhole), std::end(kWhole));
       const BreakPlan plan = break_compound(solid, command);
       problems[seed] = broken_truth(solid, plan);
       if (problems[seed].empty()) problems[seed] = broken_promise(solid, plan);

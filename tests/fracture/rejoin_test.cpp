@@ -74,7 +74,7 @@ void expect_same_bonds(const std::vector<Bond>& bonds, const std::vector<Bond>& 
   }
 }
 
-double mass_kg(const Compound& compound) { return weigh(compound, stone()).mass_kg; }
+double mass_kg(const Compound& compound) { return mass_of(compound, stone()).mass_kg; }
 
 /// The halves as one, or nothing if they stay two; checks what is true of every such compound.
 std::optional<Compound> rejoined(const Bent& bent) {
@@ -250,7 +250,7 @@ TEST(Rejoin, EveryMaterialKeepsItsMass) {
     if (convex->box.center().y() > 0.2) convex = make_convex(convex->polyhedron, MaterialIndex(1u));
   std::vector<Material> materials = stone();
   materials[1].density_kg_m3 = 7 * kDensity;
-  const double before_kg = weigh(whole, materials).mass_kg;
+  const double before_kg = mass_of(whole, materials).mass_kg;
   const Halves halves = parted(whole, kMiddle);
   for (const double angle : {-1.5, -0.2, 0.3, 1.0}) {
     const Vec3 gap(0.01, 0, 0);
@@ -258,7 +258,7 @@ TEST(Rejoin, EveryMaterialKeepsItsMass) {
                     turned(halves.section, Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())), gap));
     const auto one = rejoined(bent);
     ASSERT_TRUE(one);
-    EXPECT_NEAR(weigh(*one, materials).mass_kg, before_kg, 1e-12 * before_kg) << angle;
+    EXPECT_NEAR(mass_of(*one, materials).mass_kg, before_kg, 1e-12 * before_kg) << angle;
   }
 }
 

@@ -147,7 +147,7 @@ TEST(Section, IsFullWhereARectanglePulledAndBentIs) {
     Compound beam = extruded(divided(flat(0, h, 0, h), 4, 2), length, 8);
     const auto loads = pull_at_end(beam, Vec3(n * kYield_Pa * h * h, -full, 0));
     const Section root = Loaded(std::move(beam), loads).at(Vec3(0, h / 4, h / 2));
-    const SectionLoad load = in_parts(root.strength, root.wrench_R);
+    const SectionLoad load = relative_load(root.strength, root.wrench_R);
     EXPECT_NEAR(load.axial, n, 1e-4);
     EXPECT_NEAR(root.utilisation, 1, 0.02) << n << ": it is sheared besides";
   }

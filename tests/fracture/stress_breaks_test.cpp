@@ -21,13 +21,13 @@ namespace {
 constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
 
 /// An answer, and what becomes of the compound as pieces; none if nothing does.
-struct Outcome : StressAnswer {
+struct Outcome : StressResult {
   std::size_t cut = 0;
   BreakPlan plan = {};
 };
 
 Outcome loaded(const Compound& compound, const std::vector<Material>& materials,
-               std::vector<Load> loads = {}, StressMemoryPtr memory = nullptr,
+               std::vector<AppliedForce> loads = {}, StressCachePtr memory = nullptr,
                std::uint64_t most_work = kPlenty) {
   Structure structure(compound);
   Outcome outcome{break_by_stress(
@@ -41,7 +41,7 @@ Outcome loaded(const Compound& compound, const std::vector<Material>& materials,
 constexpr double kLength = 4, kWidth = 0.4, kRootStrength = 1e6;
 constexpr double kSnaps_N = kRootStrength * kWidth * kWidth * kWidth / (6 * kLength);
 
-std::vector<Load> at_tip(const Compound& bar, double force_N) {
+std::vector<AppliedForce> at_tip(const Compound& bar, double force_N) {
   const ConvexSlot tip(bar.convexes.size() - 1);
   return {{tip, Vec3(0, -force_N, 0), Vec3(kLength, kWidth / 2, kWidth / 2)}};
 }
@@ -71,7 +71,7 @@ void expect_snapped_at_root(const BreakPlan& plan) {
 TEST(StressBreaks, ACantileverWithstandsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
-  StressMemoryPtr memory;
+  StressCachePtr memory;
   for (int step = 0; step < 200; ++step) {
     // A load that trembles is solved for anew each time; nothing must add up.
     const double load_N = (0.9 + (step % 2 ? 0.01 : -0.01)) * kSnaps_N;
@@ -90,7 +90,7 @@ TEST(StressBreaks, UtilisationIsWorstAtTheRootAndGrowsWithTheLoad) {
   const std::vector<Material> materials = weightless(kRootStrength);
   const Structure structure(compound);
   for (const double part : {0.3, 0.9, 1.5}) {  // beyond the limit it is told, and nothing breaks
-    const std::vector<Load> loads = at_tip(compound, part * kSnaps_N);
+    const std::vector<AppliedForce> loads = at_tip(compound, part * kSnaps_N);
     const std::vector<float> worst =
         utilisation_by_stress(structure, {materials, loads, kDown, Vec3::Zero(), kPlenty, nullptr});
     ASSERT_EQ(worst.size(), structure.slot_count());
@@ -145,9 +145,9 @@ TEST(StressBreaks, TheSameLoadAgainCostsOneLookAndChangesNothing) {
 TEST(StressBreaks, WorkPutOffIsNotLost) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
-  const std::vector<Load> loads = at_tip(compound, 1.1 * kSnaps_N);
+  const std::vector<AppliedForce> loads = at_tip(compound, 1.1 * kSnaps_N);
   const std::uint64_t little = 3 * compound.bonds.size();
-  StressMemoryPtr memory;
+  StressCachePtr memory;
   Compound left = compound;
   std::size_t pieces = 1;
   int calls = 0;
@@ -238,7 +238,7 @@ TEST(StressBreaks, AnyCompoundGivesPiecesThatAddUpAndTheSameForAnyNumberOfThread
     Random random(seed, 17);
     Compound compound = voronoi_compound(2 + static_cast<int>(random.below(120)), seed);
     for (std::uint8_t& anchored : compound.anchored) anchored = random.uniform() < 0.05;
-    std::vector<Load> loads;
+    std::vector<AppliedForce> loads;
     for (int i = 0; i < 5; ++i) {
       const ConvexSlot convex(random.below(static_cast<std::uint32_t>(compound.convexes.size())));
       const double size = std::pow(10.0, random.uniform(-3, 9));

@@ -22,21 +22,21 @@ constexpr double kLong = 4, kWide = 0.4;
 constexpr double kFull_Nm = kYield_Pa * kWide * kWide * kWide / 4;
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 40;
 
-std::vector<Load> by_slots(const std::vector<ConvexLoad>& loads) {
-  std::vector<Load> result;
+std::vector<AppliedForce> by_slots(const std::vector<ConvexLoad>& loads) {
+  std::vector<AppliedForce> result;
   for (const ConvexLoad& load : loads)
     result.push_back({ConvexSlot(load.convex), load.force_N, load.point_R, load.torque_Nm});
   return result;
 }
 
 /// Forces on what lies in a box, in all `force_N`.
-std::vector<Load> spread(const Compound& compound, const Box& where, const Vec3& force_N) {
-  std::vector<Load> loads;
+std::vector<AppliedForce> spread(const Compound& compound, const Box& where, const Vec3& force_N) {
+  std::vector<AppliedForce> loads;
   for (std::uint32_t c = 0; c < compound.convexes.size(); ++c) {
     const Vec3& at = compound.convexes[c]->solid.centroid;
     if (where.overlaps({at, at})) loads.push_back({ConvexSlot(c), force_N, at});
   }
-  for (Load& load : loads) load.force_N /= static_cast<double>(loads.size());
+  for (AppliedForce& load : loads) load.force_N /= static_cast<double>(loads.size());
   return loads;
 }
 
@@ -95,7 +95,7 @@ void expect_conserved(const Compound& before, const BreakEdit& edit) {
   EXPECT_EQ(bonds, known);
 }
 
-StressAnswer judged(const Compound& compound, const std::vector<Load>& loads,
+StressResult judged(const Compound& compound, const std::vector<AppliedForce>& loads,
                     const Vec3& gravity_R = Vec3::Zero(),
                     const std::vector<Material>& materials = steel(),
                     std::span<const ConvexSlot> hinged = {}) {
@@ -105,12 +105,12 @@ StressAnswer judged(const Compound& compound, const std::vector<Load>& loads,
   load.gravity_R = gravity_R;
   load.most_work = kUnlimited;
   load.hinged.assign(hinged.begin(), hinged.end());
-  StressAnswer answer = break_by_stress(Structure(compound), load);
+  StressResult answer = break_by_stress(Structure(compound), load);
   expect_conserved(compound, answer.edit);
   return answer;
 }
 
-void expect_stands(const StressAnswer& answer) {
+void expect_stands(const StressResult& answer) {
   EXPECT_TRUE(answer.settled);
   EXPECT_FALSE(answer.edit.changed);
   EXPECT_TRUE(answer.edit.hinges.empty());
@@ -124,10 +124,10 @@ TEST(Yield, ACantileverFlowsAtItsRootWhenAllOfItDoes) {
     const auto load = [&](double part) {
       return by_slots(pull_at_end(compound, Vec3(0, -part * kFull_Nm / kLong, 0)));
     };
-    const StressAnswer holds = judged(compound, load(0.96));
+    const StressResult holds = judged(compound, load(0.96));
     expect_stands(holds);
     EXPECT_NEAR(holds.worst, 0.96, 0.03);
-    const StressAnswer flows = judged(compound, load(1.04));
+    const StressResult flows = judged(compound, load(1.04));
     ASSERT_EQ(flows.edit.hinges.size(), 1u);
     ASSERT_EQ(flows.edit.loose.pieces.size(), 1u);
     EXPECT_TRUE(flows.edit.cut.empty());
@@ -164,7 +164,7 @@ TEST(Yield, OfVoronoiCellsFlowsWhenABarOfTheirSectionWould) {
       return by_slots(pull_at_end(compound, Vec3(0, -moment_Nm / arm_m, 0)));
     };
     expect_stands(judged(compound, load(0.9 * most_Nm, 9)));
-    const StressAnswer flows = judged(compound, load(1.1 * most_Nm, 9 - held_m));
+    const StressResult flows = judged(compound, load(1.1 * most_Nm, 9 - held_m));
     ASSERT_GE(flows.edit.hinges.size(), 1u) << seed;
     EXPECT_LT(flows.edit.hinges[0].section.centroid_R.x(), held_m + 1);
   }
@@ -178,10 +178,10 @@ TEST(Yield, ABarThatIsPulledFlowsOnceAndOneThatIsPressedThrice) {
     };
     expect_stands(judged(compound, load(0.98)));
     expect_stands(judged(compound, load(-0.98)));
-    const StressAnswer pulled = judged(compound, load(1.02));
+    const StressResult pulled = judged(compound, load(1.02));
     ASSERT_EQ(pulled.edit.hinges.size(), 1u);
     EXPECT_NEAR(pulled.edit.hinges[0].section.centroid_R.x(), kLong / 2, kLong / 8);
-    const StressAnswer pressed = judged(compound, load(-1.02));
+    const StressResult pressed = judged(compound, load(-1.02));
     EXPECT_EQ(pressed.edit.hinges.size(), 3u);
     EXPECT_EQ(pressed.edit.loose.pieces.size(), 3u);
   }
@@ -195,7 +195,7 @@ TEST(Yield, ABeamHeldAtBothEndsPartsAtBoth) {
     return spread(compound, everything, Vec3(0, -part * 12 * kFull_Nm / kLong, 0));
   };
   expect_stands(judged(compound, load(0.9)));
-  const StressAnswer answer = judged(compound, load(1.2));
+  const StressResult answer = judged(compound, load(1.2));
   ASSERT_EQ(answer.edit.hinges.size(), 2u);
   EXPECT_NEAR(std::abs(answer.edit.hinges[0].section.centroid_R.x() -
                        answer.edit.hinges[1].section.centroid_R.x()),
@@ -207,7 +207,7 @@ TEST(Yield, ABeamOverloadedAtOneEndAlonePartsAtTheOtherToo) {
   // P at L/4: 9/64 P L at the near end, 3/64 at the far one, 54/1024·P·L... below it.
   const double near = 9.0 / 64 * kLong;
   const Box where = {Vec3(kLong / 4 - 0.21, 0, 0), Vec3(kLong / 4 + 0.21, 1, 1)};
-  const StressAnswer answer =
+  const StressResult answer =
       judged(compound, spread(compound, where, Vec3(0, -1.1 * kFull_Nm / near, 0)));
   ASSERT_GE(answer.edit.hinges.size(), 2u);
   double first = kLong;
@@ -231,7 +231,7 @@ TEST(Yield, APortalThatSwaysPartsAtItsFeet) {
     return spread(portal, corner, Vec3(part * 4 * full_Nm / 6, 0, 0));
   };
   expect_stands(judged(portal, load(0.75)));
-  const StressAnswer answer = judged(portal, load(1.1));
+  const StressResult answer = judged(portal, load(1.1));
   ASSERT_EQ(answer.edit.hinges.size(), 2u);
   for (const PlasticHinge& hinge : answer.edit.hinges)
     EXPECT_NEAR(hinge.section.centroid_R.y(), 0, 1e-9);
@@ -248,7 +248,7 @@ TEST(Yield, APlateHeldAllRoundStands) {
     part.anchored = edge ? 1 : 0;
   }
   const Compound plate = make_compound(std::move(parts));
-  const StressAnswer answer = judged(plate, spread(plate, bounds(plate), Vec3(0, -2e9, 0)));
+  const StressResult answer = judged(plate, spread(plate, bounds(plate), Vec3(0, -2e9, 0)));
   EXPECT_GT(answer.worst, 2);
   expect_stands(answer);
 }
@@ -257,11 +257,11 @@ TEST(Yield, WhatIsBesideAHingeDoesNotFlowAgain) {
   const Compound compound = bar(kLong, kWide, 10, 1);
   const auto loads = by_slots(pull_at_end(compound, Vec3(0, -1.04 * kFull_Nm / kLong, 0)));
   const std::vector<ConvexSlot> root = {ConvexSlot(0), ConvexSlot(1)};
-  const StressAnswer again = judged(compound, loads, Vec3::Zero(), steel(), root);
+  const StressResult again = judged(compound, loads, Vec3::Zero(), steel(), root);
   expect_stands(again);
   EXPECT_LT(again.worst, 1);
   const auto more = by_slots(pull_at_end(compound, Vec3(0, -1.5 * kFull_Nm / kLong, 0)));
-  const StressAnswer beyond = judged(compound, more, Vec3::Zero(), steel(), root);
+  const StressResult beyond = judged(compound, more, Vec3::Zero(), steel(), root);
   ASSERT_EQ(beyond.edit.hinges.size(), 1u);
   EXPECT_NEAR(beyond.edit.hinges[0].section.centroid_R.x(), 0.2 * kLong, 1e-9);
 }
@@ -277,10 +277,10 @@ TEST(Yield, WhatIsBondedToWhatDoesNotBreaksAsEver) {
     return by_slots(pull_at_end(compound, Vec3(0, -part * snaps_N, 0)));
   };
   expect_stands(judged(compound, load(0.9), Vec3::Zero(), materials));
-  const StressAnswer answer = judged(compound, load(1.1), Vec3::Zero(), materials);
+  const StressResult answer = judged(compound, load(1.1), Vec3::Zero(), materials);
   EXPECT_TRUE(answer.edit.hinges.empty());
   materials[1].yield_Pa = 0;
-  const StressAnswer ever = judged(compound, load(1.1), Vec3::Zero(), materials);
+  const StressResult ever = judged(compound, load(1.1), Vec3::Zero(), materials);
   EXPECT_TRUE(ever.edit.changed);
   EXPECT_EQ(sunder::fracture::hash_of(answer.edit.loose),
             sunder::fracture::hash_of(ever.edit.loose));
@@ -301,7 +301,7 @@ TEST(Yield, WhatCracksDoesSoBeforeTheBarInItFlows) {
   materials[1].tensile_Pa = materials[1].shear_Pa = 2e6;
   const Compound compound = make_compound(std::move(parts));
   const double full_Nm = kYield_Pa * 0.4 * 0.2 * 0.2 / 4;
-  const StressAnswer answer =
+  const StressResult answer =
       judged(compound, by_slots(pull_at_end(compound, Vec3(0, -1.3 * full_Nm / 4, 0))),
              Vec3::Zero(), materials);
   EXPECT_FALSE(answer.edit.cut.empty());
@@ -314,12 +314,13 @@ TEST(Yield, ABlowBendsSteelWithoutACrack) {
   const double full_m_s = kFull_Nm / kLong / std::sqrt(kg * stiffness);  // ½ m v² = F² / 2k
   const std::vector<Material> materials = steel();
   for (const double part : {0.95, 1.1}) {
-    std::vector<Load> impulses = by_slots(pull_at_end(compound, Vec3(0, -kg * part * full_m_s, 0)));
+    std::vector<AppliedForce> impulses =
+        by_slots(pull_at_end(compound, Vec3(0, -kg * part * full_m_s, 0)));
     LoadCase load;
     load.materials = materials;
     load.most_work = kUnlimited;
     load.blow = {impulses, 0.5 * kg * std::pow(part * full_m_s, 2), Vec3(kLong, 0, 0), 0};
-    const StressAnswer answer = break_by_stress(Structure(compound), load);
+    const StressResult answer = break_by_stress(Structure(compound), load);
     EXPECT_NEAR(answer.blow.worst, part, 0.05);
     EXPECT_EQ(answer.edit.hinges.size(), part > 1 ? 1u : 0u);
     EXPECT_TRUE(answer.edit.cut.empty());
@@ -327,7 +328,7 @@ TEST(Yield, ABlowBendsSteelWithoutACrack) {
   }
 }
 
-std::uint64_t hash_of(const StressAnswer& answer) {
+std::uint64_t hash_of(const StressResult& answer) {
   std::uint64_t hash = sunder::fracture::hash_of(answer.edit.loose);
   hash = combine(hash, bits_of(answer.worst));
   for (const PlasticHinge& hinge : answer.edit.hinges) {
@@ -360,7 +361,7 @@ TEST(Yield, AnyCompoundKeepsItsConvexesAndBondsAndIsTheSameForAnyNumberOfThreads
     materials[0].yield_Pa = std::pow(10.0, random.uniform(2, 7));
     materials[1].yield_Pa = 0;
     materials[1].tensile_Pa = std::pow(10.0, random.uniform(2, 7));
-    std::vector<Load> loads;
+    std::vector<AppliedForce> loads;
     for (int i = 0; i < 4; ++i) {
       const ConvexSlot convex(random.below(static_cast<std::uint32_t>(compound.convexes.size())));
       loads.push_back({convex, std::pow(10.0, random.uniform(2, 6)) * random.direction(),
@@ -369,7 +370,7 @@ TEST(Yield, AnyCompoundKeepsItsConvexesAndBondsAndIsTheSameForAnyNumberOfThreads
     std::vector<std::uint64_t> hashes;
     for (const int count : {1, 3}) {
       set_threads(count);
-      const StressAnswer answer = judged(compound, loads, kDown, materials);
+      const StressResult answer = judged(compound, loads, kDown, materials);
       EXPECT_TRUE(answer.settled || answer.edit.changed || !answer.edit.cut.empty());
       EXPECT_TRUE(std::isfinite(answer.worst));
       hashes.push_back(hash_of(answer));

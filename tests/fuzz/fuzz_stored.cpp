@@ -15,8 +15,8 @@
 #include "engine/io/compound_file.h"
 #include "engine/io/figures.h"
 #include "engine/io/frame_file.h"
-#include "engine/io/take/take.h"
-#include "engine/io/take/take_blocks.h"
+#include "engine/io/recording/recording.h"
+#include "engine/io/recording/recording_blocks.h"
 #include "fracture/check/case_file.h"
 #include "fracture/vacd/vacd.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -71,7 +71,7 @@ void check_frame(const Frame& frame) {
 void play_recording(const std::vector<std::byte>& file) {
   const TemporaryFile stored(file);
   try {
-    TakeReader take(stored.path());
+    RecordingReader take(stored.path());
     while (const FramePtr frame = take.next()) check_frame(*frame);
     take.seek(take.frames() / 2);
     while (const FramePtr frame = take.next()) check_frame(*frame);
@@ -86,8 +86,9 @@ void play_file(std::span<const std::uint8_t> bytes) { play_recording(bytes_of(by
 /// first kind makes a recording of the newest version; otherwise it is of the oldest.
 void play_blocks(std::span<const std::uint8_t> bytes) {
   ByteWriter out;
-  for (std::size_t i = 0; i < kTakeName; ++i) out.put(kTakeMagic[i]);
-  out.put(bytes.empty() || bytes[0] < 128 ? kOldestTake : kTakeMagic[kTakeName]);
+  for (std::size_t i = 0; i < kRecordingMagicLength; ++i) out.put(kRecordingMagic[i]);
+  out.put(bytes.empty() || bytes[0] < 128 ? kOldestVersion
+                                          : kRecordingMagic[kRecordingMagicLength]);
   Packer frames, others;
   for (std::size_t at = 0; at + 4 <= bytes.size();) {
     const auto kind = static_cast<BlockKind>(bytes[at] % 128);

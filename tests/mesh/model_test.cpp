@@ -177,15 +177,16 @@ TEST(Glb, KeepsTheRulesOfTheFormat) {
   }
 }
 
-Picture bytes_of(const std::string& text) {
+EncodedImage bytes_of(const std::string& text) {
   const auto* begin = reinterpret_cast<const std::byte*>(text.data());
   return std::make_shared<const std::vector<std::byte>>(begin, begin + text.size());
 }
 
 TEST(Glb, KeepsPaintsTheirPicturesAndWhereTheyLie) {
-  const Picture png = bytes_of("\x89PNG5"), jpeg = bytes_of("\xff\xd8\xff"), other = bytes_of("N");
-  const std::vector<Paint> paints = {
-      {Vec3f(1, 0.5f, 0.25f), png, true, other, 0.5f, Gloss{0.25f, 1, jpeg}},
+  const EncodedImage png = bytes_of("\x89PNG5"), jpeg = bytes_of("\xff\xd8\xff"),
+                     other = bytes_of("N");
+  const std::vector<Appearance> paints = {
+      {Vec3f(1, 0.5f, 0.25f), png, true, other, 0.5f, MetallicRoughness{0.25f, 1, jpeg}},
       {Vec3f(0, 0, 1), jpeg, false, png, -2}};
   std::vector<Compound> pieces = two_pieces();
   for (Compound& piece : pieces) {
@@ -213,18 +214,18 @@ TEST(Glb, KeepsPaintsTheirPicturesAndWhereTheyLie) {
       EXPECT_FALSE(group.paint->picture);
       continue;
     }
-    const Paint &given = paints[number - 1], &got = group.paint.value();
+    const Appearance &given = paints[number - 1], &got = group.paint.value();
     EXPECT_EQ(got.color, given.color);
     EXPECT_EQ(*got.picture, *given.picture);
     EXPECT_EQ(*got.relief, *given.relief);
-    EXPECT_EQ(got.relief_scale, given.relief_scale);
+    EXPECT_EQ(got.normal_scale, given.normal_scale);
     EXPECT_EQ(got.gloss->metallic, given.gloss ? given.gloss->metallic : 0);
     EXPECT_EQ(got.gloss->roughness, given.gloss ? given.gloss->roughness : 0.9f);
     EXPECT_EQ(got.gloss->picture != nullptr, given.gloss.has_value());
-    EXPECT_FALSE(got.from_below);
+    EXPECT_FALSE(got.v_from_bottom);
     for (std::uint32_t c = polygon.first_corner; c < polygon.first_corner + 3; ++c) {
       const Vec3& at = read.vertices[read.corners[c]];
-      const double up = given.from_below ? 1 - at.y() : at.y();
+      const double up = given.v_from_bottom ? 1 - at.y() : at.y();
       EXPECT_NEAR(read.corner_uvs[c].x(), at.x() + 4 * at.z(), 1e-5);
       EXPECT_NEAR(read.corner_uvs[c].y(), up, 1e-5);
     }
@@ -247,7 +248,7 @@ TEST(ObjFolder, KeepsTheColorsOfPaints) {
   convex->visual = std::make_shared<const PolygonMesh>(std::move(mesh));
   pieces[0].convexes[0] = convex;
   const Folder folder;
-  const std::vector<Paint> paints = {{Vec3f(1, 0, 0), nullptr}};
+  const std::vector<Appearance> paints = {{Vec3f(1, 0, 0), nullptr}};
   write_obj_folder(folder / "out", make_model(pieces, stone(), 0, paints));
   const RawMesh read = read_mesh(folder / "out/piece_0.obj");
   std::size_t red = 0;

@@ -82,7 +82,7 @@ TEST(Model, ASolidOfManyConvexesIsOneShell) {
     const Compound solid = fracture::make_solid(name);
     Material stone;
     const Model model = make_model(std::span(&solid, 1), std::span(&stone, 1), 0);
-    EXPECT_EQ(model.walled_parts, 0u) << name;
+    EXPECT_EQ(model.parts_with_walls, 0u) << name;
     ASSERT_EQ(model.parts[0].shells.size(), 1u) << name;
     const PolygonMesh& mesh = *model.parts[0].shells[0].mesh;
     EXPECT_EQ(open_edges(mesh), 0u) << name;

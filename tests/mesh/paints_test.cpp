@@ -38,7 +38,7 @@ class Paints : public testing::Test {
   fs::path outside_, folder_;
 };
 
-std::string text_of(const Picture& picture) {
+std::string text_of(const EncodedImage& picture) {
   std::string text;
   for (const std::byte b : *picture) text.push_back(static_cast<char>(b));
   return text;
@@ -71,7 +71,7 @@ TEST_F(Paints, OfAnObjAreThoseOfTheMtlBesideIt) {
   ASSERT_TRUE(paint(2));
   ASSERT_TRUE(paint(2)->picture);
   EXPECT_EQ(text_of(paint(2)->picture), "PNG!");
-  EXPECT_TRUE(paint(2)->from_below);
+  EXPECT_TRUE(paint(2)->v_from_bottom);
   EXPECT_EQ(paint(2)->color, Vec3f(1, 1, 1)) << "black times a picture is not meant";
   EXPECT_FALSE(paint(3));
 }
@@ -114,14 +114,14 @@ TEST_F(Paints, OfAnMtlHaveReliefFromNormalsOrElseFromHeights) {
   const RawMesh mesh = read("a.obj");
   ASSERT_EQ(mesh.groups.size(), 4u);
   const auto relief = [&](std::size_t g) {
-    const Paint& paint = *mesh.groups[g].paint;
-    return (paint.relief ? text_of(paint.relief) : "none") + std::to_string(paint.relief_scale);
+    const Appearance& paint = *mesh.groups[g].paint;
+    return (paint.relief ? text_of(paint.relief) : "none") + std::to_string(paint.normal_scale);
   };
   EXPECT_EQ(relief(0), "N1.000000");
   EXPECT_EQ(relief(1), "N23.000000");
   EXPECT_EQ(relief(2), "H2.000000");
   EXPECT_EQ(relief(3), "none1.000000");
-  EXPECT_TRUE(mesh.groups[0].paint->from_below);
+  EXPECT_TRUE(mesh.groups[0].paint->v_from_bottom);
   EXPECT_FALSE(mesh.groups[0].paint->picture);
 
   write("a.mtl", "newmtl m\nnorm -bm steep normals.png\n");
@@ -179,7 +179,7 @@ TEST_F(Paints, OfAGltfHaveItsNormalPicturesAndTheirScale) {
   const auto paint = [&](std::size_t g) { return mesh.groups.at(g).paint; };
   ASSERT_TRUE(paint(0));
   EXPECT_EQ(text_of(paint(0)->relief), "N");
-  EXPECT_EQ(paint(0)->relief_scale, 0.5f);
+  EXPECT_EQ(paint(0)->normal_scale, 0.5f);
   EXPECT_EQ(paint(0)->color, Vec3f(1, 1, 1)) << "which is what the format says of none";
   EXPECT_FALSE(paint(1)->relief) << "it is not there";
   EXPECT_EQ(paint(1)->color, Vec3f(0, 0, 1));
@@ -230,7 +230,7 @@ TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
   EXPECT_EQ(text_of(paint(1)->picture), "PNG!");
   EXPECT_EQ(text_of(paint(2)->picture), "PNG!");
   EXPECT_EQ(text_of(paint(3)->picture), "JPEG");
-  EXPECT_FALSE(paint(3)->from_below);
+  EXPECT_FALSE(paint(3)->v_from_bottom);
   ASSERT_TRUE(paint(4));
   EXPECT_FALSE(paint(4)->picture);
   EXPECT_FALSE(paint(5)) << "it says nothing of its look";

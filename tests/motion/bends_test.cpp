@@ -9,8 +9,8 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "engine/io/recording/recording.h"
 #include "engine/io/state_hash.h"
-#include "engine/io/take/take.h"
 #include "tests/motion/bending.h"
 
 namespace sunder::tests {
@@ -175,7 +175,7 @@ TEST(Bending, BentMeshesAreRecordedExactly) {
   std::vector<FramePtr> frames;
   {
     BendingRun run(sagging_beam(2.0));
-    TakeWriter writer(path);
+    RecordingWriter writer(path);
     bool bent = false;
     for (; run.frame->time_s < 2; run.step()) {
       writer.take(run.frame);
@@ -186,7 +186,7 @@ TEST(Bending, BentMeshesAreRecordedExactly) {
     writer.finish();
     EXPECT_TRUE(bent);
   }
-  TakeReader reader(path);
+  RecordingReader reader(path);
   for (const FramePtr& frame : frames) {
     const FramePtr read = reader.next();
     ASSERT_TRUE(read);

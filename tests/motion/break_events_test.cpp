@@ -33,7 +33,7 @@ std::size_t expect_attributed(const Frame& before, const Frame& frame) {
     const BreakEvent& event = frame.breaks[i];
     const bool is_known = last.contains(event.parent_key);
     EXPECT_TRUE(is_known || born.contains(event.parent_key)) << event.parent_key;
-    EXPECT_TRUE(last.contains(event.before_key)) << event.before_key;
+    EXPECT_TRUE(last.contains(event.previous_key)) << event.previous_key;
     EXPECT_LT(event.material.value, frame.materials->size());
     EXPECT_LE(event.child_keys.size(), event.pieces);
     short_lived += is_known ? 0 : 1;
@@ -88,7 +88,7 @@ TEST(BreakEvents, OfBendingBarsNameBodiesOfTheFrameBefore) {
       const Keys last = keys_of(*bending.frame);
       bending.step();
       for (const BreakEvent& event : bending.frame->breaks) {
-        EXPECT_TRUE(last.contains(event.before_key)) << event.before_key;
+        EXPECT_TRUE(last.contains(event.previous_key)) << event.previous_key;
         EXPECT_FALSE(event.child_keys.empty());
         ++events;
       }

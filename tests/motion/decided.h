@@ -16,7 +16,7 @@ namespace sunder::tests {
 inline Solid wall(int axis, const Vec3& center_W, double side_m, double thickness_m) {
   Vec3 size = Vec3::Constant(side_m);
   size[axis] = thickness_m;
-  std::uint8_t rim = kAnchoredAllRound;
+  std::uint8_t rim = kAnchoredAllSides;
   for (const bool high : {false, true}) {
     rim = static_cast<std::uint8_t>(rim & ~anchor_side(axis, high));
   }

@@ -77,7 +77,7 @@ Case random_case(std::uint64_t seed) {
   const double radius = random.uniform(0.05, 0.3);
   Vec3 on_R, normal_R;
   while (!find_place(solid.compound, radius, random, on_R, normal_R)) continue;
-  const Vec3 com_R = weigh(solid.compound, one.scene.materials).com_R;
+  const Vec3 com_R = mass_of(solid.compound, one.scene.materials).com_R;
   const Vec3 arm_W = solid.X_WR.rotation * (on_R - com_R);
   const Vec3 normal_W = solid.X_WR.rotation * normal_R;
   one.is_blast = seed % 10 == 0;

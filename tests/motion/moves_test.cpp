@@ -37,7 +37,7 @@ TEST(Moves, ABodyFollowsItsPathExactly) {
   while (trial.frame->time_s < 2.5) {
     trial.step();
     const PathKey key = path.at(trial.frame->time_s);
-    const Quat turn(Eigen::AngleAxisd(key.turn_W.norm(), key.turn_W.normalized()));
+    const Quat turn(Eigen::AngleAxisd(key.rotation_W.norm(), key.rotation_W.normalized()));
     const Vec3 at_W = Vec3(0, 2, 0) + key.shift_W + turn * Vec3(1, 0, 3);
     EXPECT_LT((trial.body(0).X_WB.position - at_W).norm(), 1e-9) << trial.frame->time_s;
     EXPECT_LT(trial.body(0).X_WB.rotation.angularDistance(turn), 1e-6);

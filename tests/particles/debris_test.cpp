@@ -54,7 +54,7 @@ TEST(Debris, NeverPassesTheGroundAndConservesItsCount) {
     debris.advance(kDt, obstacles.view());
     const DebrisView view = debris.view();
     for (const Vec3f& at : view.position_W) ASSERT_GE(at.y(), -1.5f + 0.02f - 1e-6f);
-    const ParticleLedger ledger = debris.ledger();
+    const ParticleCounts ledger = debris.ledger();
     ASSERT_EQ(ledger.emitted, 2000u);
     ASSERT_EQ(ledger.alive, ledger.emitted - ledger.gone);
   }
@@ -216,7 +216,7 @@ TEST(Debris, OverItsBudgetFadesTheOldestRestingAndIgnoresWhatIsOverItsLimit) {
   EXPECT_EQ(debris.ledger().alive, 160u);
   EXPECT_EQ(debris.ledger().ignored, 10u);
   run(debris, obstacles, 2);
-  const ParticleLedger ledger = debris.ledger();
+  const ParticleCounts ledger = debris.ledger();
   EXPECT_EQ(ledger.alive, ledger.emitted - ledger.gone);
   EXPECT_LE(ledger.alive, 150u) << "room for the next";
   EXPECT_GE(ledger.alive, 130u) << "but no more than that";

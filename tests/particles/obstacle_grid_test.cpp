@@ -43,15 +43,15 @@ void expect_touches_of_all(Random& random, const ObstacleGrid& grid, std::size_t
   std::iota(all.shapes.begin(), all.shapes.end(), 0u);
   int touched = 0;
   for (int round = 0; round < 100; ++round) {
-    std::vector<SphereWay> ways(count);
+    std::vector<SpherePath> ways(count);
     const Vec3 place = random_place(random, 6);
-    for (SphereWay& way : ways) {
+    for (SpherePath& way : ways) {
       way.from = place + random_place(random, apart_m);
       way.to = way.from + random_place(random, way_m);
       way.radius_m = 0.02 * random.uniform();
       way.duration_s = kDt;
     }
-    std::vector<std::optional<ObstacleTouch>> found(count), wanted(count);
+    std::vector<std::optional<SphereContact>> found(count), wanted(count);
     grid.find(ways, near);
     grid.sweep(ways, near, found);
     grid.sweep(ways, all, wanted);
@@ -85,7 +85,7 @@ TEST(ObstacleGrid, LooksAlongALongWayOnly) {
     obstacles.add_box(random_place(random, 12), Vec3::Constant(0.1), Quat::Identity());
   ObstacleGrid grid;
   grid.build(obstacles.view(), kDt, kEverywhere, ObstacleGrid::Which::kAll);
-  const SphereWay way{Vec3::Constant(-30), Vec3::Constant(30), 0.01, kDt};
+  const SpherePath way{Vec3::Constant(-30), Vec3::Constant(30), 0.01, kDt};
   ObstacleGrid::Near near;
   grid.find({&way, 1}, near);
   EXPECT_LT(near.shapes.size(), 300u);
@@ -94,11 +94,11 @@ TEST(ObstacleGrid, LooksAlongALongWayOnly) {
   expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 300);  // longer than all parts
 }
 
-std::optional<ObstacleTouch> touch_at_rest(const ObstacleGrid& grid, const Vec3& place,
+std::optional<SphereContact> touch_at_rest(const ObstacleGrid& grid, const Vec3& place,
                                            double radius_m) {
   ObstacleGrid::Near near;
-  const SphereWay way{place, place, radius_m, kDt};
-  std::optional<ObstacleTouch> touch;
+  const SpherePath way{place, place, radius_m, kDt};
+  std::optional<SphereContact> touch;
   grid.find({&way, 1}, near);
   grid.sweep({&way, 1}, near, {&touch, 1});
   return touch;
@@ -111,7 +111,7 @@ TEST(ObstacleGrid, KnowsWhatHasPassedWithinTheStep) {
   const Vec3 place(0.25, 0, 0);
   ObstacleGrid grid;
   grid.build(obstacles.view(), kDt, {place, place}, ObstacleGrid::Which::kMoving);
-  const std::optional<ObstacleTouch> touch = touch_at_rest(grid, place, 0.01);
+  const std::optional<SphereContact> touch = touch_at_rest(grid, place, 0.01);
   ASSERT_TRUE(touch.has_value());
   EXPECT_NEAR(touch->time, (0.24 - 0.05) / 0.5, 1e-3);
   EXPECT_LE((touch->normal_W - Vec3::UnitX()).norm(), 1e-5);

@@ -60,8 +60,8 @@ struct TestFace {
     corners = {center + Vec3(-w, 0, -w), center + Vec3(w, 0, -w), center + Vec3(w, 0, w),
                center + Vec3(-w, 0, w)};
   }
-  Emission emission(const Crumbling& crumbling) const {
-    Emission face;
+  ExposedPolygon emission(const DebrisEmission& crumbling) const {
+    ExposedPolygon face;
     face.corners_W = corners;
     face.normal_W = -Vec3::UnitY();
     face.crumbling = crumbling;

@@ -21,8 +21,8 @@ DebrisAndDustOptions small_options() {
   return options;
 }
 
-Crumbling crumbling_of(double particles_per_m2, double debris_ratio) {
-  Crumbling crumbling;
+DebrisEmission crumbling_of(double particles_per_m2, double debris_ratio) {
+  DebrisEmission crumbling;
   crumbling.particles_per_m2 = particles_per_m2;
   crumbling.debris_ratio = debris_ratio;
   return crumbling;
@@ -70,13 +70,13 @@ std::uint64_t hash_of_a_run(int thread_count) {
   for (int step = 0; step < 110; ++step) {
     if (step % 10 == 0 && step < 60) {
       const TestFace face(Vec3(0.1 * step - 2, 1.5, 0));
-      const Emission emission = face.emission(crumbling_of(1200, 0.5));
+      const ExposedPolygon emission = face.emission(crumbling_of(1200, 0.5));
       particles->emit(std::span(&emission, 1));
     }
     obstacles.advance(kDt);
     particles->advance(kDt, obstacles.view());
     hash = combine(hash, hash_of(*particles));
-    const ParticleLedger ledger = particles->report().debris;
+    const ParticleCounts ledger = particles->report().debris;
     asleep = std::max(asleep, ledger.alive - ledger.awake);
   }
   const ParticleReport report = particles->report();
@@ -96,7 +96,7 @@ TEST(Particles, AreTheSameBitsForOneTwoFourAndSevenThreads) {
 TEST(Particles, ComeFromAFaceByItsDensityAndRatio) {
   auto particles = make_debris_and_dust(small_options());
   const TestFace face(Vec3(0, 3, 0), 2);
-  const Emission emission = face.emission(crumbling_of(1000, 0.25));
+  const ExposedPolygon emission = face.emission(crumbling_of(1000, 0.25));
   particles->emit(std::span(&emission, 1));
   const ParticleReport report = particles->report();
   EXPECT_EQ(report.debris.alive + report.dust.alive, 4000u);
@@ -116,8 +116,8 @@ TEST(Particles, ComeFromEveryFaceEvenWhereRoomIsShort) {
   options.limits = {500, 500};
   auto particles = make_debris_and_dust(options);
   const TestFace left(Vec3(-10, 3, 0)), right(Vec3(10, 3, 0));
-  const Emission faces[] = {left.emission(crumbling_of(2000, 0.5)),
-                            right.emission(crumbling_of(2000, 0.5))};
+  const ExposedPolygon faces[] = {left.emission(crumbling_of(2000, 0.5)),
+                                  right.emission(crumbling_of(2000, 0.5))};
   particles->emit(faces);
   const ParticleReport report = particles->report();
   EXPECT_LE(report.debris.alive, 500u);
@@ -133,7 +133,7 @@ TEST(Particles, ComeFromEveryFaceEvenWhereRoomIsShort) {
 TEST(Particles, OfManySmallFacesAreAsManyAsOfOneLargeFace) {
   auto particles = make_debris_and_dust(small_options());
   const TestFace face(Vec3(0, 3, 0), 0.01);
-  const std::vector<Emission> faces(10000, face.emission(crumbling_of(1000, 0.5)));
+  const std::vector<ExposedPolygon> faces(10000, face.emission(crumbling_of(1000, 0.5)));
   particles->emit(faces);
   const ParticleReport report = particles->report();
   EXPECT_NEAR(report.debris.emitted + report.dust.emitted, 1000, 100);
@@ -144,12 +144,12 @@ TEST(Particles, AreFewAndSlowWhereACrackStaysShutAndManyAndFastWhereABlowOpensIt
   std::uint32_t alive[3];
   double mean_m[3];
   int i = 0;
-  for (const double parting_m_s : {0.0, 2.0, 20.0}) {
+  for (const double opening_speed_m_s : {0.0, 2.0, 20.0}) {
     DebrisAndDustOptions options = small_options();
     options.gravity_W.setZero();
     auto particles = make_debris_and_dust(options);
-    Emission emission = face.emission(crumbling_of(4000, 0.5));
-    emission.parting_m_s = parting_m_s;
+    ExposedPolygon emission = face.emission(crumbling_of(4000, 0.5));
+    emission.opening_speed_m_s = opening_speed_m_s;
     particles->emit(std::span(&emission, 1));
     alive[i] = particles->report().debris.alive + particles->report().dust.alive;
     particles->advance(kDt, TestObstacles().view());
@@ -167,11 +167,11 @@ TEST(Particles, AreFewAndSlowWhereACrackStaysShutAndManyAndFastWhereABlowOpensIt
 
 TEST(Particles, DebrisSizesFollowAPowerLaw) {
   auto particles = make_debris_and_dust(small_options());
-  Crumbling crumbling = crumbling_of(40000, 1);
+  DebrisEmission crumbling = crumbling_of(40000, 1);
   crumbling.debris_smallest_m = 0.01;
   crumbling.debris_largest_m = 0.1;
   const TestFace face(Vec3(0, 3, 0));
-  const Emission emission = face.emission(crumbling);
+  const ExposedPolygon emission = face.emission(crumbling);
   particles->emit(std::span(&emission, 1));
   int over_2cm = 0, over_4cm = 0;
   for (const float radius : particles->debris().radius_m) {
@@ -190,7 +190,7 @@ TEST(Particles, InheritTheMotionOfTheirSolid) {
   options.gravity_W.setZero();
   auto particles = make_debris_and_dust(options);
   const TestFace face(Vec3(10, 3, 0), 0.1);
-  Emission emission = face.emission(crumbling_of(10000, 1));
+  ExposedPolygon emission = face.emission(crumbling_of(10000, 1));
   emission.motion = {Vec3(0, 3, 0), Vec3(0, 5, 0), Vec3(0, 0, 2)};
   particles->emit(std::span(&emission, 1));
   particles->advance(kDt, TestObstacles().view());
@@ -202,7 +202,7 @@ TEST(Particles, InheritTheMotionOfTheirSolid) {
 
 TEST(Particles, AChipIsOnePieceOfDebrisThatMovesOn) {
   auto particles = make_debris_and_dust(small_options());
-  Chip chip;
+  DebrisPiece chip;
   chip.center_W = Vec3(1, 5, 2);
   chip.radius_m = 0.03;
   chip.velocity_W = Vec3(0, 0, 6);
@@ -216,7 +216,7 @@ TEST(Particles, AChipIsOnePieceOfDebrisThatMovesOn) {
 TEST(Particles, WithoutDustHaveNoAir) {
   auto particles = make_debris_and_dust(small_options());
   const TestFace face(Vec3(0, 3, 0));
-  Emission emission = face.emission(crumbling_of(1000, 1));
+  ExposedPolygon emission = face.emission(crumbling_of(1000, 1));
   particles->emit(std::span(&emission, 1));
   particles->advance(kDt, TestObstacles().view());
   EXPECT_EQ(particles->report().air_cells, 0u);
@@ -233,7 +233,7 @@ std::vector<std::uint32_t> cells_after(double apart_m, std::span<const double> m
   std::vector<std::uint32_t> cells;
   for (const double puffs : more) {
     for (const TestFace* face : {&low, &high}) {
-      const Emission emission = face->emission(crumbling_of(puffs / 200, 0));
+      const ExposedPolygon emission = face->emission(crumbling_of(puffs / 200, 0));
       particles->emit(std::span(&emission, 1));
     }
     particles->advance(kDt, TestObstacles().view());

@@ -18,7 +18,7 @@ Solid tower() {
     const Vec3 min(0, i, 0);
     solid.compound.convexes.push_back(
         make_convex(make_box(min, min + Vec3::Ones()), MaterialIndex(0)));
-    solid.compound.anchored.push_back(i == 0 ? kAnchoredAllRound : 0);
+    solid.compound.anchored.push_back(i == 0 ? kAnchoredAllSides : 0);
   }
   solid.compound.bonds = {{0, 1, 3, 2, 1}};
   return solid;
@@ -34,13 +34,14 @@ TEST(RegressLoad, NoneIsCarriedOverOnceNoSolidIsLeftThatALoadCouldBreak) {
   scene.limits.load_work_a_frame = 1;  // enough for one of the two
   auto breaker = std::make_unique<ScriptedBreaker>(1.0);
   breaker->stressed = [](const Structure&, const LoadCase& load) {
-    StressAnswer answer;
+    StressResult answer;
     answer.work = load.most_work;
     return answer;
   };
   Simulation simulation(std::move(scene),
-                        std::make_unique<ScriptedPhysics>(
-                            [](const ScriptedPhysics&, int) { return std::vector<Approach>{}; }),
+                        std::make_unique<ScriptedPhysics>([](const ScriptedPhysics&, int) {
+                          return std::vector<SpeculativeContact>{};
+                        }),
                         std::move(breaker));
   EXPECT_EQ(simulation.next()->report.carried_over, 0u) << "before the first step";
   EXPECT_EQ(simulation.next()->report.carried_over, 1u);

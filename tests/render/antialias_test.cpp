@@ -41,8 +41,7 @@ double error_of(const Image& image, double slope) {
 }
 
 TEST(Antialias, AFlatPictureIsUntouched) {
-  const Image image =
-      antialiased(std::vector<std::uint32_t>(kSide * kSide, grey(90)), kSide, kSide);
+  const Image image = apply_fxaa(std::vector<std::uint32_t>(kSide * kSide, grey(90)), kSide, kSide);
   for (const std::uint8_t value : image.rgb) ASSERT_EQ(value, 90);
 }
 
@@ -53,7 +52,7 @@ TEST(Antialias, SlantedEdgesComeCloserToTheirTrueCoverage) {
     for (const std::uint32_t pixel : pixels) {
       raw.rgb.insert(raw.rgb.end(), 3, static_cast<std::uint8_t>(pixel & 255));
     }
-    const Image smooth = antialiased(pixels, kSide, kSide);
+    const Image smooth = apply_fxaa(pixels, kSide, kSide);
     EXPECT_LT(error_of(smooth, slope), 0.6 * error_of(raw, slope)) << "slope " << slope;
   }
 }
@@ -61,7 +60,7 @@ TEST(Antialias, SlantedEdgesComeCloserToTheirTrueCoverage) {
 TEST(Antialias, AStraightEdgeStaysSharp) {
   std::vector<std::uint32_t> pixels;
   for (int i = 0; i < kSide * kSide; ++i) pixels.push_back(grey(i / kSide < kSide / 2 ? 200 : 20));
-  const Image image = antialiased(pixels, kSide, kSide);
+  const Image image = apply_fxaa(pixels, kSide, kSide);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     ASSERT_NEAR(image.rgb[3 * i], pixels[i] & 255, 8) << "softened, but no stair to smooth";
   }

@@ -29,7 +29,7 @@ FrameBody& add_ball(SyntheticFrame& s, std::uint64_t key, std::uint32_t name, co
                     double radius_m = 0.5) {
   s.add_ball(place, radius_m, Stuff::kSteel);
   FrameBody& body = s.frame.bodies.back();
-  body.key = body.before_key = key;
+  body.key = body.previous_key = key;
   body.name = name;
   return body;
 }
@@ -105,9 +105,9 @@ TEST(Camera, AFollowerGoesOnWithTheLargestPieceAndWithoutAJerk) {
     SyntheticFrame s = frame_at(i);
     const double since = i - kBreak;
     add_ball(s, 1, 1, {0, 2, 0}, 2);
-    add_ball(s, 5, 1, {-1, 2, 0}, 0.4).before_key = i == kBreak ? 1 : 5;
+    add_ball(s, 5, 1, {-1, 2, 0}, 0.4).previous_key = i == kBreak ? 1 : 5;
     FrameBody& large = add_ball(s, 6, 1, {1 + 0.1 * since, 2, 0}, 1);
-    large.before_key = i == kBreak ? 1 : 6;
+    large.previous_key = i == kBreak ? 1 : 6;
     large.velocity_W = {6, 0, 0};
     add_ball(s, 7, 2, {0, 9, 0}, 8);  // larger, but no part of it
     // It breaks into two, of which the larger is not the older, and flies off.

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "render/frame_interpolation.h"
 #include "render/image/compare.h"
-#include "render/passage.h"
 #include "render/renderer.h"
 #include "tests/render/synthetic_frame.h"
 
@@ -118,7 +118,7 @@ TEST(UpTo, BodiesGoStraightAndTurnEvenlyFromTheFrameBefore) {
   second.time_s = first.time_s + 1.0 / 60;
   second.bodies[0].X_WB.rotation = Quat(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
   second.view.eye_W += Vec3(0, 2, 0);
-  const Interval way = up_to(second, &first);
+  const FrameInterval way = up_to(second, &first);
   const std::shared_ptr<Frame> half = between(way, 0.5);
   EXPECT_LT((half->bodies[0].X_WB.position - Vec3(2, 3, 0)).norm(), 1e-12);
   EXPECT_NEAR(half->bodies[0].X_WB.rotation.angularDistance(Quat::Identity()), 0.2, 1e-9);
@@ -132,7 +132,7 @@ TEST(UpTo, WhatIsNewGoesBackAsFastAsItMoves) {
   const Frame first = ball_at({0, 3, 0});
   Frame second = ball_at({4, 3, 0});
   second.time_s = first.time_s + 0.1;
-  second.bodies[0].key = second.bodies[0].before_key = 8;
+  second.bodies[0].key = second.bodies[0].previous_key = 8;
   second.bodies[0].velocity_W = Vec3(10, 0, 0);
   second.bodies[0].angular_velocity_W = Vec3(0, 4, 0);
   const std::shared_ptr<Frame> half = between(up_to(second, &first), 0.5);

@@ -14,14 +14,14 @@ Image flat(std::uint8_t level) {
   return {40, 40, std::vector<std::uint8_t>(std::size_t{3} * 40 * 40, level)};
 }
 
-GoldenPicture picture(const std::string& name, std::uint8_t reference, std::uint8_t actual) {
-  GoldenPicture p;
+GoldenResult picture(const std::string& name, std::uint8_t reference, std::uint8_t actual) {
+  GoldenResult p;
   p.name = name;
   p.reference = flat(reference);
   p.actual = flat(actual);
   p.difference = compare(p.reference, p.actual);
   p.passed = p.difference.passes(p.thresholds);
-  p.accept_by = "sunder golden accept " + name;
+  p.accept_command = "sunder golden accept " + name;
   return p;
 }
 
@@ -32,7 +32,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 }
 
 TEST(GoldenReport, FailuresComeFirstWithTheCommandThatAcceptsThem) {
-  const std::vector<GoldenPicture> pictures = {picture("good", 90, 90), picture("b<a>d", 90, 200)};
+  const std::vector<GoldenResult> pictures = {picture("good", 90, 90), picture("b<a>d", 90, 200)};
   const std::string page = golden_report(pictures);
   EXPECT_LT(page.find("b&lt;a>d"), page.find("good"));
   EXPECT_EQ(count(page, "sunder golden accept"), 1u) << "what passed needs no accepting";
@@ -40,7 +40,7 @@ TEST(GoldenReport, FailuresComeFirstWithTheCommandThatAcceptsThem) {
 }
 
 TEST(GoldenReport, ThePageHoldsItsPicturesAndNeedsNothingElse) {
-  const std::vector<GoldenPicture> pictures = {picture("good", 90, 90), picture("bad", 90, 200)};
+  const std::vector<GoldenResult> pictures = {picture("good", 90, 90), picture("bad", 90, 200)};
   const std::string page = golden_report(pictures);
   EXPECT_EQ(count(page, "data:image/png;base64,"), 4u) << "one where all is the same, else three";
   EXPECT_EQ(count(page, "http"), 0u);
@@ -52,11 +52,11 @@ TEST(GoldenReport, ThePageHoldsItsPicturesAndNeedsNothingElse) {
 }
 
 TEST(GoldenReport, AMissingBaselineIsShownAsWhatIsDrawnNow) {
-  GoldenPicture p;
+  GoldenResult p;
   p.name = "new";
   p.actual = flat(50);
-  p.accept_by = "sunder golden accept new";
-  const std::string page = golden_report(std::vector<GoldenPicture>{p});
+  p.accept_command = "sunder golden accept new";
+  const std::string page = golden_report(std::vector<GoldenResult>{p});
   EXPECT_EQ(count(page, "data:image/png;base64,"), 1u);
   EXPECT_EQ(count(page, "sunder golden accept new"), 1u);
 }

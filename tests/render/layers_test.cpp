@@ -35,7 +35,7 @@ RenderOptions with_layers(std::vector<std::string> names) {
   return options;
 }
 
-std::vector<std::uint16_t> at(const DeepImage& image, int x, int y) {
+std::vector<std::uint16_t> at(const Image16& image, int x, int y) {
   const auto first = static_cast<std::size_t>((y * image.width + x) * image.channels);
   const auto from = image.values.begin() + static_cast<std::ptrdiff_t>(first);
   return {from, from + image.channels};
@@ -46,7 +46,7 @@ TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
   renderer.draw(wall());
   const std::vector<Layer>& layers = renderer.layers();
   ASSERT_EQ(layers.size(), 3u);
-  const DeepImage &depth = layers[0].image, &normals = layers[1].image, &ids = layers[2].image;
+  const Image16 &depth = layers[0].image, &normals = layers[1].image, &ids = layers[2].image;
   double far_m = 0;
   for (const auto& [key, word] : depth.words)
     if (key == "far_m") far_m = std::stod(word);
@@ -68,10 +68,10 @@ TEST(Layers, OfDepthAreOfOneScaleWhereverTheCameraGoes) {
   Renderer renderer(with_layers({"depth"}));
   Frame frame = wall();
   renderer.draw(frame);
-  const DeepImage first = renderer.layers()[0].image;
+  const Image16 first = renderer.layers()[0].image;
   frame.view.eye_W.z() = 30;
   renderer.draw(frame);
-  const DeepImage& second = renderer.layers()[0].image;
+  const Image16& second = renderer.layers()[0].image;
   EXPECT_EQ(second.words, first.words);
   EXPECT_NEAR(at(second, kWidth / 2, kHeight / 2)[0] / 65535.0 * 64, 29, 0.01);
 }
@@ -112,7 +112,7 @@ TEST(Layers, HaveWhatIsPaintedToo) {
   auto mesh = std::make_shared<Mesh>(*frame.meshes->front());
   for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kFirstPaint;
   frame.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
-  frame.paints = std::make_shared<const std::vector<Paint>>(1);
+  frame.paints = std::make_shared<const std::vector<Appearance>>(1);
   Renderer renderer(with_layers({"ids"}));
   renderer.draw(frame);
   EXPECT_EQ(at(renderer.layers().front().image, kWidth / 2, kHeight / 2),

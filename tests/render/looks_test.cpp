@@ -45,7 +45,7 @@ Frame wall_frame(Stuff stuff) {
 
 /// The frame with every vertex of its first mesh of the paint, and texture coordinates that go from
 /// 0 to 1 over the wall.
-void paint_all(Frame& frame, const Paint& paint) {
+void paint_all(Frame& frame, const Appearance& paint) {
   auto mesh = std::make_shared<Mesh>(*(*frame.meshes)[0]);
   for (Mesh::Vertex& vertex : mesh->vertices) {
     if (vertex.look == Mesh::kSurface) vertex.look = Mesh::kFirstPaint;
@@ -54,17 +54,17 @@ void paint_all(Frame& frame, const Paint& paint) {
                            static_cast<float>(0.5 - 0.5 * at.y()));
   }
   frame.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
-  frame.paints = std::make_shared<const std::vector<Paint>>(std::vector{paint});
+  frame.paints = std::make_shared<const std::vector<Appearance>>(std::vector{paint});
 }
 
-Picture as_png(const Image& image) {
+EncodedImage as_png(const Image& image) {
   const std::vector<std::uint8_t> png = encode_png(image);
   const auto* begin = reinterpret_cast<const std::byte*>(png.data());
   return std::make_shared<const std::vector<std::byte>>(begin, begin + png.size());
 }
 
 /// A picture of equal rows, or columns, of these colours.
-Picture stripes(const std::vector<Vec3f>& colors, bool rows, int each = 8) {
+EncodedImage stripes(const std::vector<Vec3f>& colors, bool rows, int each = 8) {
   const int count = static_cast<int>(colors.size());
   Image image{count * each, count * each, {}};
   for (int y = 0; y < image.height; ++y) {
@@ -77,7 +77,7 @@ Picture stripes(const std::vector<Vec3f>& colors, bool rows, int each = 8) {
 }
 
 /// Red and green above, blue and white below, 8 x 8.
-Paint four_colors(bool from_below) {
+Appearance four_colors(bool v_from_bottom) {
   Image image{8, 8, {}};
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 8; ++x) {
@@ -88,10 +88,10 @@ Paint four_colors(bool from_below) {
       image.rgb.insert(image.rgb.end(), rgb, rgb + 3);
     }
   }
-  return {Vec3f::Ones(), as_png(image), from_below};
+  return {Vec3f::Ones(), as_png(image), v_from_bottom};
 }
 
-TEST(Paint, AFilesColorIsSeenInPlaceOfTheMaterials) {
+TEST(Appearance, AFilesColorIsSeenInPlaceOfTheMaterials) {
   Frame frame = wall_frame(Stuff::kBrick);
   paint_all(frame, {Vec3f(0.05f, 0.5f, 0.05f), nullptr, false});
   const Vec3f color = mean(drawn(frame), 140, 70, 180, 110);
@@ -99,12 +99,12 @@ TEST(Paint, AFilesColorIsSeenInPlaceOfTheMaterials) {
   EXPECT_GT(color.y(), color.z() + 60);
 }
 
-TEST(Paint, APictureLiesWhereItsCoordinatesSayEitherWayUp) {
-  for (const bool from_below : {false, true}) {
+TEST(Appearance, APictureLiesWhereItsCoordinatesSayEitherWayUp) {
+  for (const bool v_from_bottom : {false, true}) {
     Frame frame = wall_frame(Stuff::kConcrete);
-    paint_all(frame, four_colors(from_below));
+    paint_all(frame, four_colors(v_from_bottom));
     const Image image = drawn(frame);
-    const int top = from_below ? 120 : 40, low = 160 - top;
+    const int top = v_from_bottom ? 120 : 40, low = 160 - top;
     const auto at = [&](int x, int y) { return mean(image, x - 8, y - 8, x + 8, y + 8); };
     const Vec3f red = at(120, top), green = at(200, top), blue = at(120, low), white = at(200, low);
     EXPECT_GT(red.x(), 2 * red.y()) << red.transpose();
@@ -117,9 +117,9 @@ TEST(Paint, APictureLiesWhereItsCoordinatesSayEitherWayUp) {
 const Vec3f kFlat(128, 128, 255);
 
 /// A white wall in relief, lit from the right and above.
-Frame relief_frame(const Picture& relief, bool from_below = false, float scale = 1) {
+Frame relief_frame(const EncodedImage& relief, bool v_from_bottom = false, float scale = 1) {
   Frame frame = wall_frame(Stuff::kPlaster);
-  paint_all(frame, {Vec3f(0.4f, 0.4f, 0.4f), nullptr, from_below, relief, scale});
+  paint_all(frame, {Vec3f(0.4f, 0.4f, 0.4f), nullptr, v_from_bottom, relief, scale});
   frame.view.to_sun_W = {1, 1, 1};
   return frame;
 }
@@ -130,21 +130,21 @@ float brightness(const Image& image, int x, int y) {
 
 TEST(Relief, TurnsTheFaceToTheLightOrAwayEitherWayUp) {
   const Vec3f left(48, 128, 228), right(208, 128, 228), up(128, 208, 228), low(128, 48, 228);
-  for (const bool from_below : {false, true}) {
-    const Image flat = drawn(relief_frame(stripes({kFlat}, false), from_below));
-    const Image columns = drawn(relief_frame(stripes({left, right}, false), from_below));
-    EXPECT_LT(brightness(columns, 120, 90), brightness(flat, 120, 90) - 15) << from_below;
-    EXPECT_GT(brightness(columns, 200, 90), brightness(flat, 200, 90) + 15) << from_below;
+  for (const bool v_from_bottom : {false, true}) {
+    const Image flat = drawn(relief_frame(stripes({kFlat}, false), v_from_bottom));
+    const Image columns = drawn(relief_frame(stripes({left, right}, false), v_from_bottom));
+    EXPECT_LT(brightness(columns, 120, 90), brightness(flat, 120, 90) - 15) << v_from_bottom;
+    EXPECT_GT(brightness(columns, 200, 90), brightness(flat, 200, 90) + 15) << v_from_bottom;
     // The wall's coordinates begin at its top; read from below, the picture stands on its head, and
     // what is up in it is down.
-    const Image rows = drawn(relief_frame(stripes({up, low}, true), from_below));
-    EXPECT_GT(brightness(rows, 160, 40), brightness(flat, 160, 40) + 15) << from_below;
-    EXPECT_LT(brightness(rows, 160, 140), brightness(flat, 160, 140) - 15) << from_below;
+    const Image rows = drawn(relief_frame(stripes({up, low}, true), v_from_bottom));
+    EXPECT_GT(brightness(rows, 160, 40), brightness(flat, 160, 40) + 15) << v_from_bottom;
+    EXPECT_LT(brightness(rows, 160, 140), brightness(flat, 160, 140) - 15) << v_from_bottom;
   }
 }
 
 TEST(Relief, FollowsTextureCoordinatesThatAreMirroredOrTurned) {
-  const Picture right = stripes({Vec3f(208, 128, 228)}, false);
+  const EncodedImage right = stripes({Vec3f(208, 128, 228)}, false);
   const auto seen = [&](const Eigen::Matrix2f& turn) {
     Frame frame = relief_frame(right);
     frame.view.to_sun_W = {1, 0.2, 1};
@@ -197,7 +197,7 @@ TEST(Relief, OfGreyIsHeights) {
 }
 
 /// A ball of a paint, the sun behind the eye, above and to the right.
-Frame ball_frame(const Paint& paint, Stuff stuff = Stuff::kPlaster) {
+Frame ball_frame(const Appearance& paint, Stuff stuff = Stuff::kPlaster) {
   SyntheticFrame s;
   s.add_ball({0, 3, 0}, 1, stuff);
   s.frame.view.eye_W = {0, 3, 4};
@@ -207,14 +207,14 @@ Frame ball_frame(const Paint& paint, Stuff stuff = Stuff::kPlaster) {
   return s.frame;
 }
 
-Paint glossy(float roughness, float metallic, const Vec3f& color = Vec3f(0.3f, 0.05f, 0.05f)) {
-  return {color, nullptr, false, nullptr, 1, Gloss{roughness, metallic}};
+Appearance glossy(float roughness, float metallic, const Vec3f& color = Vec3f(0.3f, 0.05f, 0.05f)) {
+  return {color, nullptr, false, nullptr, 1, MetallicRoughness{roughness, metallic}};
 }
 
 /// Where on the picture of a ball the sun is mirrored, about.
 Vec3f highlight(const Image& image) { return mean(image, 176, 60, 186, 70); }
 
-TEST(Gloss, ShowsTheSunInAHighlightThatIsNarrowerTheSmootherAndDimmerTheRougher) {
+TEST(MetallicRoughness, ShowsTheSunInAHighlightThatIsNarrowerTheSmootherAndDimmerTheRougher) {
   const auto highest = [](const Image& image) {
     float most = 0;
     for (int y = 55; y < 95; ++y) {
@@ -240,7 +240,7 @@ TEST(Gloss, ShowsTheSunInAHighlightThatIsNarrowerTheSmootherAndDimmerTheRougher)
   EXPECT_GT(wide(smooth), 4);
 }
 
-TEST(Gloss, OfAMetalHasItsColorAndTheRestOfItMirrors) {
+TEST(MetallicRoughness, OfAMetalHasItsColorAndTheRestOfItMirrors) {
   const Vec3f gold(0.8f, 0.5f, 0.1f);
   const Vec3f metal = highlight(drawn(ball_frame(glossy(0.5f, 1, gold))));
   const Vec3f lacquer = highlight(drawn(ball_frame(glossy(0.5f, 0, Vec3f(0, 0, 0)))));
@@ -252,8 +252,8 @@ TEST(Gloss, OfAMetalHasItsColorAndTheRestOfItMirrors) {
   EXPECT_GT(above.z() / above.x(), below.z() / below.x() + 0.1f);
 }
 
-TEST(Gloss, IsTheFilesInPlaceOfTheMaterials) {
-  const Paint dull = glossy(1, 0);
+TEST(MetallicRoughness, IsTheFilesInPlaceOfTheMaterials) {
+  const Appearance dull = glossy(1, 0);
   const auto off = [](const Image& a, const Image& b) {
     return (mean(a, 120, 50, 200, 130) - mean(b, 120, 50, 200, 130)).cwiseAbs().maxCoeff();
   };
@@ -262,9 +262,9 @@ TEST(Gloss, IsTheFilesInPlaceOfTheMaterials) {
   EXPECT_GT(off(steel, drawn(ball_frame(glossy(0.2f, 1), Stuff::kSteel))), 10);
 }
 
-TEST(Gloss, OfAPictureIsGreenTimesRoughnessAndBlueTimesMetallic) {
+TEST(MetallicRoughness, OfAPictureIsGreenTimesRoughnessAndBlueTimesMetallic) {
   // Left it is smooth lacquer, right rough metal; red says nothing.
-  Paint paint = glossy(1, 1, Vec3f(0.8f, 0.5f, 0.1f));
+  Appearance paint = glossy(1, 1, Vec3f(0.8f, 0.5f, 0.1f));
   const auto image = [&](const std::vector<Vec3f>& halves) {
     paint.gloss->picture = stripes(halves, false, 32);
     return drawn(ball_frame(paint));
@@ -279,11 +279,11 @@ TEST(Gloss, OfAPictureIsGreenTimesRoughnessAndBlueTimesMetallic) {
   EXPECT_LT(near(both, all_metal, 170, 195), 1);
   EXPECT_GT(near(all_lacquer, all_metal, 125, 150), 10);
   EXPECT_GT(near(all_lacquer, all_metal, 170, 195), 10);
-  paint.gloss = Gloss{0.2f, 0};
+  paint.gloss = MetallicRoughness{0.2f, 0};
   EXPECT_LT(near(all_lacquer, drawn(ball_frame(paint)), 125, 195), 1) << "51 of 255 is 0.2";
 }
 
-TEST(Paint, WhatBrokeLooksAsItsMaterialDoes) {
+TEST(Appearance, WhatBrokeLooksAsItsMaterialDoes) {
   Frame plain = wall_frame(Stuff::kConcrete);
   auto mesh = std::make_shared<Mesh>(*(*plain.meshes)[0]);
   for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kInterior;
@@ -294,7 +294,7 @@ TEST(Paint, WhatBrokeLooksAsItsMaterialDoes) {
   EXPECT_EQ(drawn(painted), broken);
 }
 
-TEST(Paint, TheNextFramesPaintsAreThoseSeen) {
+TEST(Appearance, TheNextFramesPaintsAreThoseSeen) {
   Frame red = wall_frame(Stuff::kConcrete), blue = red;
   paint_all(red, {Vec3f(0.6f, 0, 0), nullptr, false});
   paint_all(blue, {Vec3f(0, 0, 0.6f), nullptr, false});
@@ -307,9 +307,9 @@ TEST(Paint, TheNextFramesPaintsAreThoseSeen) {
   EXPECT_EQ(drawn(plain), before);
 }
 
-TEST(Paint, APictureThatIsNoneIsRefused) {
+TEST(Appearance, APictureThatIsNoneIsRefused) {
   Frame frame = wall_frame(Stuff::kConcrete);
-  Paint paint;
+  Appearance paint;
   paint.picture = std::make_shared<const std::vector<std::byte>>(20);
   paint_all(frame, paint);
   EXPECT_THROW(drawn(frame), InputError);

@@ -1,12 +1,11 @@
 // Films at any pace: what is between two frames, and which pictures there are.
-#include "render/pace.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/base/rotation.h"
+#include "render/playback.h"
 #include "tests/render/synthetic_frame.h"
 
 namespace sunder::render::pace_test {
@@ -23,7 +22,7 @@ std::shared_ptr<Frame> frame_of(std::uint64_t index) {
 
 FrameBody body(std::uint64_t key, const Pose& X_WB, const Vec3& com_R = Vec3::Zero()) {
   FrameBody body;
-  body.key = body.before_key = key;
+  body.key = body.previous_key = key;
   body.X_WB = X_WB;
   body.com_R = com_R;
   return body;
@@ -40,12 +39,12 @@ class Given final : public FrameSource {
   std::size_t at_ = 0;
 };
 
-Interval interval_of(const std::shared_ptr<Frame>& before, const std::shared_ptr<Frame>& after,
-                     const std::shared_ptr<Frame>& beyond = nullptr) {
-  Interval interval{before, after, passage(*before, *after)};
+FrameInterval interval_of(const std::shared_ptr<Frame>& before, const std::shared_ptr<Frame>& after,
+                          const std::shared_ptr<Frame>& beyond = nullptr) {
+  FrameInterval interval{before, after, passage(*before, *after)};
   if (beyond) {
     interval.beyond = beyond;
-    interval.into_beyond = passage(*after, *beyond);
+    interval.following_match = passage(*after, *beyond);
   }
   return interval;
 }
@@ -56,9 +55,9 @@ std::vector<FramePtr> run(std::uint64_t frames) {
   return all;
 }
 
-std::vector<double> times(const Pace& pace, std::uint64_t frames) {
+std::vector<double> times(const PlaybackRate& pace, std::uint64_t frames) {
   Given given(run(frames));
-  PacedSource paced(given, pace);
+  ResampledSource paced(given, pace);
   std::vector<double> all;
   while (const FramePtr frame = paced.next()) {
     EXPECT_EQ(frame->index, all.size()) << "pictures are numbered";
@@ -67,15 +66,15 @@ std::vector<double> times(const Pace& pace, std::uint64_t frames) {
   return all;
 }
 
-TEST(Pace, AtItsOwnPaceARunGivesItsFramesThemselves) {
+TEST(PlaybackRate, AtItsOwnPaceARunGivesItsFramesThemselves) {
   const std::vector<FramePtr> frames = run(4);
   Given given(frames);
-  PacedSource paced(given, {});
+  ResampledSource paced(given, {});
   for (const FramePtr& frame : frames) EXPECT_EQ(paced.next(), frame);
   EXPECT_EQ(paced.next(), nullptr);
 }
 
-TEST(Pace, PicturesAreEvenlyInTimeUpToTheLastFrame) {
+TEST(PlaybackRate, PicturesAreEvenlyInTimeUpToTheLastFrame) {
   const std::vector<double> slow = times({60, 0.1}, 4);
   ASSERT_EQ(slow.size(), 31u);
   for (std::size_t i = 0; i < slow.size(); ++i) {
@@ -89,10 +88,10 @@ TEST(Pace, PicturesAreEvenlyInTimeUpToTheLastFrame) {
   EXPECT_EQ(times({60, 3}, 10).size(), 4u) << "every third";
 }
 
-TEST(Pace, WhatIsPassedOverIsOnePictureAFrame) {
-  const auto pictures = [](const Pace& pace, std::uint64_t first) {
+TEST(PlaybackRate, WhatIsPassedOverIsOnePictureAFrame) {
+  const auto pictures = [](const PlaybackRate& pace, std::uint64_t first) {
     Given given(run(4));
-    PacedSource paced(given, pace, first);
+    ResampledSource paced(given, pace, first);
     std::vector<std::uint64_t> all;
     while (const FramePtr frame = paced.next()) all.push_back(frame->index);
     return all;
@@ -103,13 +102,13 @@ TEST(Pace, WhatIsPassedOverIsOnePictureAFrame) {
   EXPECT_EQ(pictures({60, 3}, 1), (Pictures{0, 1}));
 }
 
-TEST(Pace, PicturesOfAPartOfARunAreThoseOfTheWhole) {
-  const Pace pace{60, 0.3};
+TEST(PlaybackRate, PicturesOfAPartOfARunAreThoseOfTheWhole) {
+  const PlaybackRate pace{60, 0.3};
   EXPECT_EQ(pace.first_picture(0), 0u);
   EXPECT_EQ(pace.last_picture(10), 33u);
   EXPECT_EQ(pace.first_picture(10), 34u) << "what is drawn up to a frame and from it on is all";
-  EXPECT_EQ((Pace{60, 0.1}).first_picture(7), 70u);
-  EXPECT_EQ((Pace{60, 0.1}).last_picture(7), 70u);
+  EXPECT_EQ((PlaybackRate{60, 0.1}).first_picture(7), 70u);
+  EXPECT_EQ((PlaybackRate{60, 0.1}).last_picture(7), 70u);
 }
 
 TEST(Between, BodiesGoStraightAndTurnEvenlyByWholeTurnsToo) {
@@ -135,7 +134,7 @@ TEST(Between, PiecesComeApartFromWhereTheyWereInTheWhole) {
   a->bodies = {body(0, X_WB, com_R)};
   b->bodies = {body(3, {{9, 9, 9}, rotation_by({1, 1, 0})}, piece_com_R),
                body(4, {}, Vec3::Zero())};
-  b->bodies[0].before_key = b->bodies[1].before_key = 0;
+  b->bodies[0].previous_key = b->bodies[1].previous_key = 0;
   const auto just_then = between(interval_of(a, b), 1e-9);
   EXPECT_LT((just_then->bodies[0].X_WB.position - X_WB * Vec3(piece_com_R - com_R)).norm(), 1e-6);
   EXPECT_LT(just_then->bodies[0].X_WB.rotation.angularDistance(X_WB.rotation), 1e-6);
@@ -151,7 +150,7 @@ TEST(Between, PiecesStayTogetherUntilTheBreak) {
   a->bodies = {whole};
   b->bodies = {body(1, {{3, 5, 2}, Quat::Identity()}, {0, 0, 1}),
                body(2, {{3, 5, -2}, Quat::Identity()}, {0, 0, -1})};
-  b->bodies[0].before_key = b->bodies[1].before_key = 0;
+  b->bodies[0].previous_key = b->bodies[1].previous_key = 0;
   BreakEvent event;
   event.time_s = 0.5 * kFrame_s;
   event.parent_key = 0;
@@ -180,7 +179,7 @@ TEST(Between, AShotComesFromWhereItFlewAndWhatGoesFliesOn) {
   a->bodies[0].key = 7;
   a->bodies[0].velocity_W = {0, -6, 0};
   a->bodies[1].key = 9;
-  b->bodies[0].key = b->bodies[0].before_key = 8;
+  b->bodies[0].key = b->bodies[0].previous_key = 8;
   b->bodies[0].velocity_W = {60, 0, 0};
   // One run's store: the ball that goes has a mesh of its own, the last one becomes part of
   // another.

@@ -108,7 +108,7 @@ Frame looked_into() {
 TEST(ViewMode, WhatLooksInsideRefusesAFrameThatDoesNotSay) {
   for (const char* name : {"contacts", "stress", "islands", "broadphase"}) {
     ViewMode mode(name);
-    EXPECT_TRUE(mode.looks_inside());
+    EXPECT_TRUE(mode.needs_inspection());
     EXPECT_NO_THROW(mode.shown(looked_into())) << name;
     try {
       mode.shown(sample());
@@ -119,7 +119,7 @@ TEST(ViewMode, WhatLooksInsideRefusesAFrameThatDoesNotSay) {
       EXPECT_NE(said.find("render the scene itself"), std::string::npos) << said;
     }
   }
-  EXPECT_FALSE(ViewMode("exploded").looks_inside());
+  EXPECT_FALSE(ViewMode("exploded").needs_inspection());
 }
 
 TEST(ViewMode, AContactIsMarkedWhereAndAlongWhatItPressesAndMoreIfItPressesMore) {
@@ -128,7 +128,7 @@ TEST(ViewMode, AContactIsMarkedWhereAndAlongWhatItPressesAndMoreIfItPressesMore)
   const Frame shown = mode.shown(frame);
   EXPECT_EQ(color_of(shown, 0), color_of(shown, 2)) << "solids are grey";
   EXPECT_TRUE(shown.debris.empty());
-  ASSERT_EQ(mode.marks().spindles.size(), 1u) << "where nothing presses nothing is marked";
+  ASSERT_EQ(mode.marks().spindles.size(), 1u) << "where nothing contact_forces nothing is marked";
   const Mark one = mode.marks().spindles[0];
   EXPECT_EQ(one.center_W, Vec3f(1, 2, 3));
   EXPECT_GT(one.half_axes_W.col(0).y(), 2 * one.half_axes_W.col(1).norm());

@@ -30,9 +30,7 @@ Scene stack(int count, double top, const std::string& preset, std::vector<std::s
   return scenes::parse_scene(text, "stack.toml", {preset, std::move(set)});
 }
 
-std::string warning_of(const Scene& scene) {
-  return accuracy_warning(scene, scenes::kMostSubsteps);
-}
+std::string warning_of(const Scene& scene) { return accuracy_warning(scene, scenes::kMaxSubsteps); }
 
 double deepest_m(Scene scene) {
   auto physics = solver::make_rigid_physics({});
@@ -47,11 +45,11 @@ double deepest_m(Scene scene) {
 }
 
 TEST(Accuracy, AStackCountsByItsHeightAndAHeavyTopByItsWeight) {
-  const Stack even = stacks_in(stack(10, 1, "accurate")).deepest;
+  const Stack even = find_stacks(stack(10, 1, "accurate")).deepest;
   EXPECT_EQ(even.bodies, 10u);
   EXPECT_NEAR(even.load, 10, 1e-9);
   EXPECT_NEAR(even.size_m, 1, 1e-9);
-  const Stack heavy = stacks_in(stack(10, 100, "accurate")).deepest;
+  const Stack heavy = find_stacks(stack(10, 100, "accurate")).deepest;
   EXPECT_NEAR(heavy.load, 109, 1e-9);
 }
 
@@ -61,10 +59,10 @@ TEST(Accuracy, AWideWallNeedsFewerSubstepsThanATowerAndTheShippedOneHasThem) {
         "[scene]\ndescription = \"x\"\nduration_s = 3\n[[solid]]\n"
         "structure = \"stack\"\ncount = 20\nsize_m = " +
         std::string(size);
-    return stacks_in(scenes::parse_scene(text, "tower.toml", {"realtime", {}})).weakest;
+    return find_stacks(scenes::parse_scene(text, "tower.toml", {"realtime", {}})).weakest;
   };
-  EXPECT_NEAR(tower("[0.2, 0.2, 0.2]").tilt_1_m, 100, 1e-6);
-  EXPECT_NEAR(tower("[0.4, 0.2, 0.3]").tilt_1_m, 20 * 0.2 / 0.09, 1e-6);
+  EXPECT_NEAR(tower("[0.2, 0.2, 0.2]").slenderness_1_m, 100, 1e-6);
+  EXPECT_NEAR(tower("[0.4, 0.2, 0.3]").slenderness_1_m, 20 * 0.2 / 0.09, 1e-6);
   EXPECT_EQ(warning_of(scenes::load_scene("brick_wall", {"realtime", {}})), "");
 }
 
@@ -77,7 +75,8 @@ TEST(Accuracy, SubstepsFollowFromTheTargetAndItIsMet) {
       const double reached = deepest_m(scene);
       std::printf("stack of %2d, target %.1e m: %2d substeps, reached %.1e m\n", count, target,
                   substeps, reached);
-      EXPECT_EQ(substeps, substeps_for_sink(stacks_in(scene).deepest, kG, 1.0 / 120, target));
+      EXPECT_EQ(substeps,
+                substeps_for_penetration(find_stacks(scene).deepest, kG, 1.0 / 120, target));
       EXPECT_LT(reached, 1.2 * target);
     }
   }
@@ -87,7 +86,7 @@ TEST(Accuracy, AWarningNamesTheSubstepsThatWouldDo) {
   EXPECT_EQ(warning_of(stack(10, 1, "draft")), "");
   EXPECT_EQ(warning_of(stack(10, 1, "accurate")), "");
   const Scene heavy = stack(10, 10000, "accurate");
-  const int needed = substeps_to_stand(stacks_in(heavy).weakest, kG, heavy.accuracy.dt_s);
+  const int needed = substeps_against_buckling(find_stacks(heavy).weakest, kG, heavy.accuracy.dt_s);
   EXPECT_GT(needed, heavy.accuracy.substeps);
   const std::string warning = warning_of(heavy);
   EXPECT_NE(warning.find(std::to_string(needed) + " substeps"), std::string::npos) << warning;
@@ -128,7 +127,7 @@ double wandered(Scene scene, double size_m) {
 
 /// What the warning tells the user to set.
 std::vector<std::string> named(const Scene& scene) {
-  const Accuracy stand = accuracy_to_stand(scene, scenes::kMostSubsteps);
+  const Accuracy stand = accuracy_against_buckling(scene, scenes::kMaxSubsteps);
   char text[80];
   std::snprintf(text, sizeof text, "%d substeps of dt 1/%.4g s", stand.substeps, 1 / stand.dt_s);
   EXPECT_NE(warning_of(scene).find(text), std::string::npos) << warning_of(scene);
@@ -219,7 +218,7 @@ TEST(Accuracy, TheChainOfAWreckingBallDoesNotStretchAtAnyPreset) {
   for (const char* links : {"16", "40"}) {
     for (const char* preset : {"draft", "realtime", "accurate", "reference"}) {
       const Scene scene = wrecking_ball(links, preset);
-      EXPECT_TRUE(chain_warnings(scene, scenes::kMostSubsteps).empty());
+      EXPECT_TRUE(chain_warnings(scene, scenes::kMaxSubsteps).empty());
       const double stretch = stretches(scene);
       std::printf("chain of %s links, %s: stretches by %.1e\n", links, preset, stretch);
       EXPECT_LT(std::abs(stretch), 1e-3);
@@ -229,14 +228,14 @@ TEST(Accuracy, TheChainOfAWreckingBallDoesNotStretchAtAnyPreset) {
 
 TEST(Accuracy, AChainThatWouldTearIsWarnedOfOnceWithTheSubstepsThatHoldIt) {
   const Scene scene = wrecking_ball("120", "draft", {"accuracy.substeps=4"});
-  const std::vector<std::string> warnings = chain_warnings(scene, scenes::kMostSubsteps);
+  const std::vector<std::string> warnings = chain_warnings(scene, scenes::kMaxSubsteps);
   ASSERT_EQ(warnings.size(), 1u);
-  const int needed = chains_in(scene).front().substeps;
+  const int needed = find_chains(scene).front().substeps;
   EXPECT_GT(needed, 4);
   EXPECT_NE(warnings[0].find(std::to_string(needed) + " substeps"), std::string::npos);
   EXPECT_NE(warnings[0].find("'ball.link.0'"), std::string::npos) << warnings[0];
   const auto held = wrecking_ball("120", "draft", {"accuracy.substeps=" + std::to_string(needed)});
-  EXPECT_TRUE(chain_warnings(held, scenes::kMostSubsteps).empty());
+  EXPECT_TRUE(chain_warnings(held, scenes::kMaxSubsteps).empty());
   const double before = stretches(scene), then = stretches(held);
   std::printf("chain of 120 links: stretches by %.1e, by %.1e with %d substeps\n", before, then,
               needed);
@@ -276,7 +275,7 @@ to = [0, 15, 0]
                                           "ropes.toml", {"accurate", std::move(set)});
   if (named) {
     const Accuracy hold =
-        cut_in_substeps(scene.accuracy, chains_in(scene).front().substeps, scenes::kMostSubsteps);
+        divide_step(scene.accuracy, find_chains(scene).front().substeps, scenes::kMaxSubsteps);
     char text[80];
     std::snprintf(text, sizeof text, "accuracy.dt_s=%.17g", hold.dt_s);
     *named = {"accuracy.substeps=" + std::to_string(hold.substeps), text};

@@ -125,7 +125,7 @@ TEST(Arena, ItsMeshesAreWatertightAndWithinTheirConvexes) {
       if (convex->is_internal()) continue;
       ASSERT_EQ(open_edges(*convex->visual), 0u);
       for (const Vec3& vertex : convex->visual->vertices)
-        ASSERT_LT(distance_outside(*convex, vertex), 1e-9);
+        ASSERT_LT(distance_to(*convex, vertex), 1e-9);
       const double outer_m3 = mass_properties(convex->polyhedron).volume_m3;
       EXPECT_GT(convex->solid.volume_m3, 0.25 * outer_m3);
     }

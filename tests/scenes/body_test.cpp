@@ -202,7 +202,7 @@ TEST_F(Patterns, HarderBlowsStartFromTheMaterialsOwn) {
       "pattern = { kind = \"voronoi\", cells = 30, falloff = 3 }\n"
       "stronger = [{ energy_J = 100, pattern = { cells = 90 } },\n"
       "            { energy_J = 1e4, impact_radius_m = inf, pattern = { kind = \"radial\" } }]\n");
-  const std::vector<StrongerImpact>& stronger = scene.materials.back().stronger;
+  const std::vector<ImpactResponse>& stronger = scene.materials.back().stronger;
   ASSERT_EQ(stronger.size(), 2u);
   EXPECT_EQ(stronger[0].pattern.cells, 90);
   EXPECT_EQ(stronger[0].pattern.falloff, 3);

@@ -38,7 +38,7 @@ double bonded_m2(const Compound& compound) {
 }
 
 Vec3 com_W(const Scene& scene, const Solid& solid) {
-  return solid.X_WR * weigh(solid.compound, scene.materials).com_R;
+  return solid.X_WR * mass_of(solid.compound, scene.materials).com_R;
 }
 
 TEST(CompoundStructure, WeighsWhatOverlapsOnceByTheFirstOfItsParts) {
@@ -51,7 +51,8 @@ TEST(CompoundStructure, WeighsWhatOverlapsOnceByTheFirstOfItsParts) {
     const double heavy = scene.materials[material_named(scene, "steel").value].density_kg_m3;
     const double light = scene.materials[material_named(scene, "wood").value].density_kg_m3;
     const double mass_kg = steel_first ? heavy + 0.75 * light : 0.75 * heavy + light;
-    EXPECT_NEAR(weigh(scene.solids[0].compound, scene.materials).mass_kg, mass_kg, 1e-9 * mass_kg);
+    EXPECT_NEAR(mass_of(scene.solids[0].compound, scene.materials).mass_kg, mass_kg,
+                1e-9 * mass_kg);
   }
 }
 
@@ -251,7 +252,7 @@ TEST(Anchored, AllHoldsEveryPartOnEverySide) {
                             "[[body]]\nmesh = \"torus:1,0.3\"\nanchored = \"all\""}) {
     const Scene scene = scene_of(lines);
     for (const std::uint8_t anchored : scene.solids.at(0).compound.anchored) {
-      EXPECT_EQ(anchored, kAnchoredAllRound);
+      EXPECT_EQ(anchored, kAnchoredAllSides);
     }
   }
 }

@@ -124,7 +124,7 @@ TEST(Golden, TheCommandsThatAreSaidMakeTheSameGoldenAgain) {
   const Json results = Json::parse(outcome.out);
   fs::copy(first.path(), second.path());
   for (const Json& golden : results["goldens"]) {
-    const std::string commands = golden["remade_by"];
+    const std::string commands = golden["remake_command"];
     for (const char* extension : {".json", ".png", ".frame"}) {
       fs::remove(first / (golden["name"].get<std::string>() + extension));
     }

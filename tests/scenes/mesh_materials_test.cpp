@@ -96,7 +96,7 @@ TEST_F(MeshMaterials, ArePickedByObjectGroupOrTheFilesOwnMaterial) {
     EXPECT_NEAR(volumes.at("wood"), 2, 1e-9) << names;
     EXPECT_NEAR(volumes.at("marble"), 4, 1e-9) << names;
     const Compound& compound = scene.solids[0].compound;
-    EXPECT_NEAR(weigh(compound, scene.materials).mass_kg, 2 * 600 + 4 * 2700, 1e-5) << names;
+    EXPECT_NEAR(mass_of(compound, scene.materials).mass_kg, 2 * 600 + 4 * 2700, 1e-5) << names;
   }
 }
 

@@ -53,13 +53,13 @@ TEST(Fracture, OfAPaintedFileGivesPaintedPieces) {
   const RawMesh pieces = read_mesh(folder / "x.glb");
   std::size_t painted = 0, inside = 0;
   for (const RawMesh::Polygon& polygon : pieces.polygons) {
-    const Paint paint = pieces.groups.at(polygon.group).paint.value();
+    const Appearance paint = pieces.groups.at(polygon.group).paint.value();
     inside += !paint.picture;
     if (!paint.picture) continue;
     ++painted;
     EXPECT_EQ(*paint.picture, read_file(folder / "color.png"));
     EXPECT_EQ(paint.gloss->roughness, 0.5f);
-    EXPECT_EQ(paint.relief_scale, 2);
+    EXPECT_EQ(paint.normal_scale, 2);
     const render::Image normals = render::decode_picture(*paint.relief);
     EXPECT_EQ(normals.width, 4);
     EXPECT_GT(normals.rgb[2], normals.rgb[0] + 20) << "other programs want normals, not heights";

@@ -68,7 +68,7 @@ TEST(Posts, AreWarnedOfAtTwiceEulersLoadAndNotAtHalfOfIt) {
             for (const double part : {0.5, 0.9, 1.1, 2.0}) {
               const Scene scene =
                   parse(post.text(anchored) + cube(part * post.critical_kg(), 0, height_m));
-              const std::vector<Post> posts = posts_in(scene);
+              const std::vector<Post> posts = find_posts(scene);
               ASSERT_EQ(posts.size(), 1u);
               EXPECT_EQ(posts[0].length_factor, 2);
               EXPECT_NEAR(posts[0].critical_kg / post.critical_kg(), 1, round ? 0.015 : 2e-3);
@@ -99,7 +99,7 @@ TEST(Posts, OfFiveCentimetresAndSixMetresDoNotBearSixTonnes) {
 TEST(Posts, ThatAreStockyAreLeftToTheirStrength) {
   const Shape pillar{"concrete", 3e10, 2400, false, 1, 3},
       column{"concrete", 3e10, 2400, true, 0.5, 3};
-  EXPECT_TRUE(posts_in(parse(pillar.text() + cube(1e6, 0, 3))).empty());
+  EXPECT_TRUE(find_posts(parse(pillar.text() + cube(1e6, 0, 3))).empty());
   EXPECT_TRUE(post_warning(parse(column.text() + cube(1e5, 0, 3))).empty());
 }
 
@@ -120,7 +120,7 @@ TEST(Posts, OfStackedPartsAreAsStiffAsTheirPartsTogether) {
       "repeat = { count = 2, step_m = [0, 1, 0] }\n"
       "[[solid.part]]\nstructure = \"box\"\nsize_m = [0.1, 2, 0.1]\nmaterial = \"wood\"\n"
       "position = [0, 2, 0]\n";
-  const std::vector<Post> posts = posts_in(parse(post));
+  const std::vector<Post> posts = find_posts(parse(post));
   ASSERT_EQ(posts.size(), 1u);
   std::printf("steel under wood: %.0f kg, exactly %.0f without own weight\n", posts[0].critical_kg,
               exact_kg);
@@ -140,21 +140,21 @@ TEST(Posts, ThatShareALoadBearTheirPartsOfItAndSwayTogether) {
       "[[solid]]\nstructure = \"box\"\nname = \"slab\"\nsize_m = [5, 0.2, 3]\n"
       "position = [0, 4, 0]\n";
   const double slab_kg = 5 * 0.2 * 3 * 2400;
-  std::vector<Post> found = posts_in(parse(posts + slab));
+  std::vector<Post> found = find_posts(parse(posts + slab));
   ASSERT_EQ(found.size(), 4u);
   for (const Post& post : found) {
     EXPECT_NEAR(post.load_kg, slab_kg / 4, 1e-6 * slab_kg);
     EXPECT_EQ(post.length_factor, 1);
   }
   // A block at a quarter of the way: three quarters of it on the nearer pair.
-  found = posts_in(parse(posts + slab + cube(1000, -1, 4.2)));
+  found = find_posts(parse(posts + slab + cube(1000, -1, 4.2)));
   EXPECT_NEAR(found[0].load_kg, slab_kg / 4 + 375, 1);
   EXPECT_NEAR(found[2].load_kg + found[3].load_kg + found[0].load_kg + found[1].load_kg,
               slab_kg + 1000, 1);
   // A wall at the far side holds the heads.
   const std::string wall =
       "[[solid]]\nstructure = \"box\"\nname = \"pier\"\nsize_m = [1.5, 4, 1.5]\n";
-  found = posts_in(parse(posts + slab + wall));
+  found = find_posts(parse(posts + slab + wall));
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[0].length_factor, 0.7);
 }
@@ -163,12 +163,12 @@ TEST(Posts, ThatHangOrFlyOrAreHeldAllRoundAreNone) {
   const std::string rod =
       "[[solid]]\nstructure = \"box\"\nname = \"rod\"\nsize_m = [0.05, 4, 0.05]\n"
       "material = \"steel\"\n";
-  EXPECT_EQ(posts_in(parse(rod)).size(), 1u);
-  EXPECT_TRUE(posts_in(parse(rod + "position = [0, 1, 0]\n")).empty()) << "it falls";
-  EXPECT_TRUE(posts_in(parse(rod + "anchored = \"all\"\n")).empty());
+  EXPECT_EQ(find_posts(parse(rod)).size(), 1u);
+  EXPECT_TRUE(find_posts(parse(rod + "position = [0, 1, 0]\n")).empty()) << "it falls";
+  EXPECT_TRUE(find_posts(parse(rod + "anchored = \"all\"\n")).empty());
   EXPECT_TRUE(
-      posts_in(parse(rod + "[[joint]]\nkind = \"ball\"\na = \"rod\"\nat = [0, 4, 0]\n")).empty());
-  EXPECT_TRUE(posts_in(parse("gravity = [0, 0, 0]\n" + rod)).empty());
+      find_posts(parse(rod + "[[joint]]\nkind = \"ball\"\na = \"rod\"\nat = [0, 4, 0]\n")).empty());
+  EXPECT_TRUE(find_posts(parse("gravity = [0, 0, 0]\n" + rod)).empty());
 }
 
 }  // namespace

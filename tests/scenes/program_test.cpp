@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/figures.h"
-#include "engine/io/take/take.h"
+#include "engine/io/recording/recording.h"
 #include "engine/model/frame.h"
 #include "scenes/file/text_file.h"
 #include "scenes/load.h"
@@ -220,7 +220,7 @@ TEST(Program, ARunThatIsKilledLeavesATakeThatPlaysUpToThere) {
       " 2>/dev/null || echo 0)\" -lt 150000 ]; "
       "do sleep 0.05; i=$((i+1)); done; kill -9 $run; wait $run; [ $? -eq 137 ]";
   ASSERT_EQ(std::system(line.c_str()), 0) << "it ended before it was killed";
-  TakeReader reader(take);
+  RecordingReader reader(take);
   EXPECT_FALSE(reader.is_complete());
   std::uint64_t frames = 0;
   while (const FramePtr frame = reader.next()) {
@@ -317,7 +317,7 @@ TEST(Program, WhatIsStoppedKeepsWhatItHasAndLeavesNothingElse) {
   EXPECT_EQ(stopped("simulate brick_wall --take " + take,
                     "[ \"$(stat -c %s " + take + " 2>/dev/null || echo 0)\" -gt 100000 ]", "TERM"),
             143);
-  EXPECT_TRUE(TakeReader(take).is_complete());
+  EXPECT_TRUE(RecordingReader(take).is_complete());
   if (std::system("ffprobe -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
   const std::string video = folder / "v.mp4";
   for (const auto& [signal, code] : {std::pair{"TERM", 143}, {"HUP", 129}}) {

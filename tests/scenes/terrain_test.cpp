@@ -38,7 +38,7 @@ TEST(Terrain, IsOneSolidOfPrismsUnderItsTriangles) {
   EXPECT_NEAR(volume(ground), 2 * sums / 3, 1e-9);
   EXPECT_EQ(bounds(ground).min, Vec3(-2, 0, -1));
   EXPECT_EQ(bounds(ground).max, Vec3(2, 4.5, 1));
-  for (const std::uint8_t anchored : ground.anchored) EXPECT_EQ(anchored, kAnchoredAllRound);
+  for (const std::uint8_t anchored : ground.anchored) EXPECT_EQ(anchored, kAnchoredAllSides);
 }
 
 TEST(Terrain, RefusesWhatIsNoGrid) {

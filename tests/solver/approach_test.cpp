@@ -29,8 +29,8 @@ class Flight {
     for (std::uint32_t i = 0; i < kBoxes; ++i) boxes_.push_back(world_.add(box(i)));
   }
 
-  /// What approaches after the rounds of changes of one step.
-  std::vector<Approach> step() {
+  /// What speculative_contacts after the rounds of changes of one step.
+  std::vector<SpeculativeContact> step() {
     collide();
     for (int round = 0; round < 4; ++round) {
       push();
@@ -41,7 +41,7 @@ class Flight {
     const std::vector<JointId> joints = tie();
     collide();
     push();
-    std::vector<Approach> all = world_.physics().approaches();
+    std::vector<SpeculativeContact> all = world_.physics().speculative_contacts();
     for (const JointId joint : joints) world_.physics().cut(joint);
     world_.physics().solve(kDt_s, 2);
     return all;
@@ -75,7 +75,7 @@ class Flight {
     ask();
   }
   void ask() {
-    if (asks_often_) world_.physics().approaches();
+    if (asks_often_) world_.physics().speculative_contacts();
   }
   void push() {
     const BodyId moved = any(), pushed = any();
@@ -124,7 +124,7 @@ class Flight {
   std::vector<BodyId> boxes_;  ///< By tag.
 };
 
-auto figures(const Approach& a) {
+auto figures(const SpeculativeContact& a) {
   return std::tuple(a.body_tag_a, a.body_tag_b, a.shape_tag_a, a.shape_tag_b, a.separation_m,
                     a.speed_m_s, a.effective_mass_kg, a.point_W.x(), a.point_W.y(), a.point_W.z(),
                     a.normal_W.x(), a.normal_W.y(), a.normal_W.z());
@@ -133,7 +133,7 @@ auto figures(const Approach& a) {
 void expect_same(Flight& one, Flight& other) {
   std::size_t seen = 0;
   for (int step = 0; step < 12; ++step) {
-    const std::vector<Approach> a = one.step(), b = other.step();
+    const std::vector<SpeculativeContact> a = one.step(), b = other.step();
     ASSERT_EQ(a.size(), b.size()) << "step " << step;
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(figures(a[i]), figures(b[i]));
     seen += a.size();

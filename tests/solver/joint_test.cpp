@@ -231,7 +231,7 @@ TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
 /// Of all loads on a body with a tag, about a point.
 std::pair<Vec3, Vec3> load_on(RigidWorld& world, std::uint32_t tag, const Vec3& about_W) {
   std::pair<Vec3, Vec3> sum(Vec3::Zero(), Vec3::Zero());
-  for (const JointLoad& load : world.physics().joint_loads()) {
+  for (const JointImpulse& load : world.physics().joint_impulses()) {
     if (load.body_tag != tag) continue;
     sum.first += load.impulse_W;
     sum.second += (load.point_W - about_W).cross(load.impulse_W) + load.angular_impulse_W;

@@ -59,7 +59,7 @@ TEST_P(Kinematic, ABoxOnALiftPressesByWeightAndAcceleration) {
     EXPECT_LT(error_Ns.norm(), 1e-4 * 1000 * kG * kDt_s) << "its work is from outside";
   }
   double force_N = 0;
-  for (const ContactLoad& load : world.physics().contact_loads())
+  for (const ContactImpulse& load : world.physics().contact_impulses())
     force_N += load.impulse_W.y() / kDt_s;
   EXPECT_NEAR(force_N / (1000 * (kG + a_m_s2)), 1, 0.02);
   const double up_m = world.state(id).X_WB.position.y() - world.state(lift).X_WB.position.y();
@@ -197,7 +197,8 @@ TEST(Crane, LiftsByWeightAndAcceleration) {
     world.physics().set_state(crane, state);
     world.step(kDt_s, kSubsteps);
     force_N = 0;
-    for (const JointLoad& by : world.physics().joint_loads()) force_N += by.impulse_W.y() / kDt_s;
+    for (const JointImpulse& by : world.physics().joint_impulses())
+      force_N += by.impulse_W.y() / kDt_s;
   }
   EXPECT_NEAR(force_N / (1000 * (kG + a_m_s2)), 1, 0.01);
   EXPECT_NEAR(world.state(id).velocity_W.y(), 4, 0.03);

@@ -133,9 +133,9 @@ TEST(Planar, ApproachesTellSpeedAndMassOfWhatWillMeetWithinTheStep) {
   world.add(ball);
   world.add(wall);
   world.physics().collide(1.0 / 240);  // 8 cm: not yet
-  EXPECT_TRUE(world.physics().approaches().empty());
+  EXPECT_TRUE(world.physics().speculative_contacts().empty());
   world.physics().collide(1.0 / 60);
-  const std::vector<Approach> found = world.physics().approaches();
+  const std::vector<SpeculativeContact> found = world.physics().speculative_contacts();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].body_tag_a, 1u);
   EXPECT_EQ(found[0].body_tag_b, 2u);
@@ -154,7 +154,7 @@ TEST(Planar, ApproachesAreFoundWhicheverOfTwoMoves) {
       world.add(ball);
     }
     world.physics().collide(1.0 / 60);
-    EXPECT_EQ(world.physics().approaches().size(), 1u) << fast;
+    EXPECT_EQ(world.physics().speculative_contacts().size(), 1u) << fast;
   }
 }
 
@@ -218,7 +218,7 @@ TEST(Planar, NothingIsTouchedFartherOffThanABodyReachesHoweverFastItSpins) {
 /// The load on a body that bears it, summed.
 Vec3 load_on(Physics& physics, std::uint32_t tag) {
   Vec3 sum = Vec3::Zero();
-  for (const ContactLoad& load : physics.contact_loads())
+  for (const ContactImpulse& load : physics.contact_impulses())
     if (load.body_tag == tag) sum += load.impulse_W;
   return sum;
 }

@@ -33,11 +33,11 @@ inline JointDesc plastic_at(const RigidWorld& world, BodyId a, BodyId b, const V
 
 /// What has flowed at a joint.
 struct Flowed {
-  Vec3 turn_R = Vec3::Zero(), drawn_R = Vec3::Zero();
+  Vec3 turn_R = Vec3::Zero(), displacement_R = Vec3::Zero();
   double work_J = 0;
 
-  void add(const JointFlow& flow) {
-    turn_R += flow.turn_R, drawn_R += flow.drawn_R, work_J += flow.work_J;
+  void add(const PlasticFlow& flow) {
+    turn_R += flow.turn_R, displacement_R += flow.displacement_R, work_J += flow.work_J;
   }
 };
 
@@ -60,7 +60,7 @@ struct Frame {
   }
   void step(int substeps) {
     world.step(kPlasticDt_s, substeps);
-    for (const JointFlow& flow : world.physics().joint_flows()) {
+    for (const PlasticFlow& flow : world.physics().plastic_flows()) {
       const auto at = std::ranges::find(joints, flow.joint) - joints.begin();
       flowed[static_cast<std::size_t>(at)].add(flow);
       work_J += flow.work_J;

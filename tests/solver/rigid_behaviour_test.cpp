@@ -121,9 +121,10 @@ TEST(RigidPhysics, ReportsApproachesBeforeTheyTouch) {
   ball.velocity_W = Vec3(20, 0, 0);
   world.add(ball);
   world.physics().collide(1.0 / 60);
-  const std::vector<Approach> approaches = world.physics().approaches();
-  ASSERT_EQ(approaches.size(), 1u);
-  const Approach& approach = approaches[0];
+  const std::vector<SpeculativeContact> speculative_contacts =
+      world.physics().speculative_contacts();
+  ASSERT_EQ(speculative_contacts.size(), 1u);
+  const SpeculativeContact& approach = speculative_contacts[0];
   EXPECT_NEAR(approach.speed_m_s, 20, 1e-4);
   EXPECT_NEAR(approach.effective_mass_kg, ball.mass_kg, 1e-3 * ball.mass_kg);
   EXPECT_NEAR(approach.separation_m, 0.25, 1e-5);
@@ -144,7 +145,7 @@ int steps_to_approach(bool turned) {
   world.add(cube);
   for (int step = 0; step < 20; ++step) {
     world.physics().collide(1.0 / 200);
-    if (!world.physics().approaches().empty()) return step;
+    if (!world.physics().speculative_contacts().empty()) return step;
     world.physics().solve(1.0 / 200, 1);
   }
   return -1;
@@ -169,14 +170,14 @@ TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
   double falling = 0;
   for (int i = 0; i < 240; ++i) {
     world.step(dt, 4);
-    for (const ContactLoad& load : world.physics().contact_loads()) sum += load.impulse_W;
+    for (const ContactImpulse& load : world.physics().contact_impulses()) sum += load.impulse_W;
     falling += mass * 9.81 * dt;
     if (world.state(weight).asleep) break;
   }
   ASSERT_TRUE(world.state(weight).asleep);
   EXPECT_NEAR(sum.y(), -falling, 0.01 * falling);  // what came down was stopped by the table
   world.step(dt, 4);
-  const std::vector<ContactLoad> loads = world.physics().contact_loads();
+  const std::vector<ContactImpulse> loads = world.physics().contact_impulses();
   ASSERT_EQ(loads.size(), 1u);
   EXPECT_EQ(loads[0].body_tag, 7u);
   EXPECT_EQ(loads[0].shape_tag, 3u);
@@ -220,10 +221,10 @@ TEST(RigidPhysics, ABodyThatLayStillIsLookedAtAgainWhenItIsPushed) {
   const BodyId id = world.add(box);
   world.run(0.1, 1.0 / 60, 2);
   world.physics().collide(1.0 / 60);
-  EXPECT_TRUE(world.physics().approaches().empty());
+  EXPECT_TRUE(world.physics().speculative_contacts().empty());
   world.physics().apply_impulse(id, Vec3(20 * box.mass_kg, 0, 0), Vec3::Zero());
   world.physics().collide(1.0 / 60);
-  EXPECT_EQ(world.physics().approaches().size(), 1u);
+  EXPECT_EQ(world.physics().speculative_contacts().size(), 1u);
 }
 
 TEST(RigidPhysics, AHalfSpaceGoesThroughItsPointHoweverItsBodyIsTurned) {

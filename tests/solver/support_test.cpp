@@ -172,8 +172,8 @@ std::vector<Contact> find_contacts(Scene& scene) {
 }
 
 /// The body and all that it bears, if they cannot stay whatever the forces: nothing supports them,
-/// or all that does is on one level, presses straight up and leaves their centre of mass outside.
-/// Empty if statics does not say so.
+/// or all that does is on one level, contact_forces straight up and leaves their centre of mass
+/// outside. Empty if statics does not say so.
 std::vector<std::uint32_t> find_unsupported(const Scene& scene, std::uint32_t body,
                                             const std::vector<Contact>& contacts) {
   std::vector<std::uint32_t> below = {kGround}, set = {body};

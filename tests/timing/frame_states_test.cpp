@@ -38,12 +38,12 @@ TEST(FrameStates, ARunThatEndsBeforeDiffersAndOneThatGoesOnDoesNot) {
 }
 
 TEST(FrameStates, WhatIsAcceptedPassesAtEveryPreset) {
-  HashBook book;
+  StateHashes book;
   accept_frames(kStack, book);
   EXPECT_EQ(book.size(), 4u);
   EXPECT_EQ(book.at("frames/boxes/draft").size(), 16u) << "frames 0 to 3";
   EXPECT_EQ(parse_hashes(format_hashes(book), "hashes.txt"), book);
-  for (const Verdict& verdict : judge_frames(kStack, book, "hashes.txt", false)) {
+  for (const Verdict& verdict : compare_frames(kStack, book, "hashes.txt", false)) {
     EXPECT_EQ(verdict.outcome, Outcome::kPassed) << verdict.what << " " << verdict.text;
   }
 }
@@ -56,19 +56,19 @@ TEST(FrameStates, WhatBreaksBeforeTheScriptBeginsDoesNotEndTheRunBeforeIt) {
                            "size_m = [0.3, 0.3, 0.3]\nposition = [0, 0.05, 0]\n"
                            "velocity = [0, -30, 0]\n"
                         << shot;
-    HashBook book;
+    StateHashes book;
     accept_frames({"early", file.string(), {}, 3}, book);
     return book;
   };
-  const auto frames = [](const HashBook& book, const std::string& preset) {
+  const auto frames = [](const StateHashes& book, const std::string& preset) {
     return book.at("frames/early/" + preset).size() / 4;
   };
-  const HashBook alone = accepted("");
+  const StateHashes alone = accepted("");
   ASSERT_LT(frames(alone, "draft"), 15u) << "the brick breaks in the first frames";
   const std::string shot =
       "[[script.shot]]\ntime_s = 0.5\nfrom = [2, 1, 2]\nat = [0, 0.5, 0]\nradius_m = 0.1\n";
-  const HashBook slow = accepted(shot + "speed_m_s = 5\n"),
-                 fast = accepted(shot + "speed_m_s = 9\n");
+  const StateHashes slow = accepted(shot + "speed_m_s = 5\n"),
+                    fast = accepted(shot + "speed_m_s = 9\n");
   for (const char* preset : {"draft", "realtime", "accurate", "reference"}) {
     EXPECT_GE(frames(slow, preset), 39u) << "30 until the shot, and 8 more, at " << preset;
     EXPECT_NE(slow.at(std::string("frames/early/") + preset),
@@ -79,11 +79,11 @@ TEST(FrameStates, WhatBreaksBeforeTheScriptBeginsDoesNotEndTheRunBeforeIt) {
 }
 
 TEST(FrameStates, ADigitThatDiffersFailsAtItsPresetAlone) {
-  HashBook book;
+  StateHashes book;
   accept_frames(kStack, book);
   char& digit = book.at("frames/boxes/draft")[9];
   digit = digit == '0' ? '1' : '0';
-  for (const Verdict& verdict : judge_frames(kStack, book, "hashes.txt", false)) {
+  for (const Verdict& verdict : compare_frames(kStack, book, "hashes.txt", false)) {
     const bool spoilt = verdict.what == "simulation at draft";
     EXPECT_EQ(verdict.outcome, spoilt ? Outcome::kFailed : Outcome::kPassed) << verdict.what;
     if (!spoilt) continue;
@@ -92,17 +92,17 @@ TEST(FrameStates, ADigitThatDiffersFailsAtItsPresetAlone) {
 }
 
 TEST(FrameStates, ARunWithoutStatesFails) {
-  const std::vector<Verdict> verdicts = judge_frames(kStack, {}, "hashes.txt", false);
+  const std::vector<Verdict> verdicts = compare_frames(kStack, {}, "hashes.txt", false);
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_EQ(verdicts.front().outcome, Outcome::kFailed);
 }
 
 TEST(FrameStates, WholeRunsAreHeldAgainstWhatBenchKnows) {
-  HashBook book;
+  StateHashes book;
   accept_frames(kStack, book);
   book["state/stack/draft/5"] = "0123456789abcdef";
   const auto failed = [&](const GuardedRun& run, bool whole) {
-    const std::vector<Verdict> verdicts = judge_frames(run, book, "hashes.txt", whole);
+    const std::vector<Verdict> verdicts = compare_frames(run, book, "hashes.txt", whole);
     return std::ranges::count(verdicts, Outcome::kFailed, &Verdict::outcome);
   };
   EXPECT_EQ(failed(kStack, false), 0);
@@ -112,7 +112,7 @@ TEST(FrameStates, WholeRunsAreHeldAgainstWhatBenchKnows) {
   EXPECT_EQ(failed(changed, true), 0) << "bench knows the scene as it is";
   book["state/stack/draft/five"] = "0123456789abcdef";
   book.erase("state/stack/draft/5");
-  EXPECT_THROW(judge_frames(kStack, book, "hashes.txt", true), InputError);
+  EXPECT_THROW(compare_frames(kStack, book, "hashes.txt", true), InputError);
 }
 
 }  // namespace

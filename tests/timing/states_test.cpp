@@ -15,17 +15,17 @@ using tests::planted;
 
 const char* const kStored = "fedcba9876543210";  // of planted()
 
-Verdict judged(const Figures& scene, const HashBook& book) {
-  return judge_states(std::span(&scene, 1), book, "hashes.txt").front();
+Verdict judged(const Figures& scene, const StateHashes& book) {
+  return compare_states(std::span(&scene, 1), book, "hashes.txt").front();
 }
 
-TEST(HashBook, IsReadAsItIsWritten) {
-  const HashBook book = {{"state/house/realtime/200", "0123456789abcdef"}, {"x", kStored}};
+TEST(StateHashes, IsReadAsItIsWritten) {
+  const StateHashes book = {{"state/house/realtime/200", "0123456789abcdef"}, {"x", kStored}};
   EXPECT_EQ(parse_hashes(format_hashes(book), "hashes.txt"), book);
   EXPECT_TRUE(parse_hashes("# nothing\n\n  \n", "hashes.txt").empty());
 }
 
-TEST(HashBook, ALineThatIsWrongIsNamed) {
+TEST(StateHashes, ALineThatIsWrongIsNamed) {
   const std::string fine = "x fedcba9876543210\n";
   for (const std::string wrong :
        {"y", "y 0123", "y 0123456789abcdeg", "y 0123456789abcdef more", "x 0123456789abcdef"}) {
@@ -39,7 +39,7 @@ TEST(HashBook, ALineThatIsWrongIsNamed) {
 }
 
 TEST(States, OneBitThatDiffersFails) {
-  const HashBook book = {{"state/house/realtime/200", kStored}};
+  const StateHashes book = {{"state/house/realtime/200", kStored}};
   Figures scene = planted("house", 1);
   EXPECT_EQ(judged(scene, book).outcome, Outcome::kPassed);
   scene["/state/hash"] = std::string("fedcba9876543211");
@@ -53,8 +53,8 @@ TEST(States, OneBitThatDiffersFails) {
 TEST(States, OneThatIsNotStoredFailsAndOneThatCannotBeIsSkipped) {
   Figures scene = planted("house", 1);
   EXPECT_EQ(judged(scene, {}).outcome, Outcome::kFailed);
-  const HashBook other = {{"state/house/draft/200", kStored},
-                          {"state/house/realtime/100", kStored}};
+  const StateHashes other = {{"state/house/draft/200", kStored},
+                             {"state/house/realtime/100", kStored}};
   EXPECT_EQ(judged(scene, other).outcome, Outcome::kFailed) << "of another preset, or shorter";
   scene["/set/0"] = std::string("limits.dust=0");
   EXPECT_EQ(judged(scene, {}).outcome, Outcome::kSkipped);
@@ -66,13 +66,13 @@ TEST(States, OneThatIsNotStoredFailsAndOneThatCannotBeIsSkipped) {
 TEST(States, RepeatsThatDifferFailWhateverIsStored) {
   Figures scene = planted("house", 1);
   scene["/differs"] = true;
-  HashBook book = {{"state/house/realtime/200", kStored}};
+  StateHashes book = {{"state/house/realtime/200", kStored}};
   EXPECT_EQ(judged(scene, book).outcome, Outcome::kFailed);
   EXPECT_THROW(accept_states(std::span(&scene, 1), book), InputError);
 }
 
 TEST(States, WhatIsAcceptedPassesAndTheRestOfTheBookStays) {
-  HashBook book = {{"state/house/realtime/200", "0123456789abcdef"}, {"pixels/house", kStored}};
+  StateHashes book = {{"state/house/realtime/200", "0123456789abcdef"}, {"pixels/house", kStored}};
   const Figures scene = planted("house", 1);
   EXPECT_EQ(judged(scene, book).outcome, Outcome::kFailed);
   accept_states(std::span(&scene, 1), book);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// Polygons flatter than this part of their longest edge's square have no area.
-constexpr double kNoArea = 1e-12;
+/// Least doubled area of a polygon over its longest edge squared; below, it has no area.
+constexpr double kMinAreaRatio = 1e-12;
 
 void rename_vertices(RawMesh& mesh, std::span<const std::uint32_t> new_of_old) {
   for (std::uint32_t& v : mesh.corners) v = new_of_old[v];
@@ -33,11 +33,11 @@ bool has_area(const RawMesh& mesh, const std::vector<std::uint32_t>& corners) {
     area += (at(i) - at(0)).cross(at(i + 1) - at(0));
     longest = std::max(longest, (at(i + 1) - at(i)).squaredNorm());
   }
-  return area.norm() > kNoArea * longest;
+  return area.norm() > kMinAreaRatio * longest;
 }
 
-/// Takes out corners that repeat the one before, and spikes: out along an edge and straight back.
-void trim(const RawMesh& mesh, std::vector<std::uint32_t>& corners) {
+/// Removes repeated corners and spikes, where the contour goes along an edge and straight back.
+void remove_spikes(const RawMesh& mesh, std::vector<std::uint32_t>& corners) {
   std::vector<std::uint32_t> kept;
   const auto vertex = [&](std::size_t back) { return mesh.corners[kept[kept.size() - back]]; };
   for (const std::uint32_t c : corners) {
@@ -45,7 +45,7 @@ void trim(const RawMesh& mesh, std::vector<std::uint32_t>& corners) {
     if (kept.size() >= 2 && vertex(1) == vertex(2)) kept.pop_back();
     if (kept.size() >= 3 && vertex(1) == vertex(3)) kept.resize(kept.size() - 2);
   }
-  std::size_t first = 0;  // the same where the end meets the start
+  std::size_t first = 0;  // also removes spikes across the end of the list
   while (kept.size() - first >= 3) {
     const auto& v = mesh.corners;
     if (v[kept.back()] == v[kept[first]]) {
@@ -62,7 +62,7 @@ void trim(const RawMesh& mesh, std::vector<std::uint32_t>& corners) {
   corners.assign(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end());
 }
 
-/// A polygon by its vertices whatever their order, and the sense in which it runs through them.
+/// The sorted vertices of a polygon, and its orientation.
 struct PolygonKey {
   std::vector<std::uint32_t> sorted;
   bool flipped = false;
@@ -144,17 +144,17 @@ void drop_unused_vertices(RawMesh& mesh) {
 std::size_t join_identical(RawMesh& mesh) {
   std::vector<std::uint32_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t v) {
+  const auto position = [&](std::uint32_t v) {
     const Vec3& p = mesh.vertices[v];
     return std::tuple(p.x(), p.y(), p.z());
   };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::tuple_cat(place(a), std::tuple(a)) < std::tuple_cat(place(b), std::tuple(b));
+    return std::tuple_cat(position(a), std::tuple(a)) < std::tuple_cat(position(b), std::tuple(b));
   });
   std::vector<std::uint32_t> new_of_old(mesh.vertices.size());
   std::size_t joined = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && place(order[i]) == place(order[i - 1]);
+    const bool same = i > 0 && position(order[i]) == position(order[i - 1]);
     new_of_old[order[i]] = same ? new_of_old[order[i - 1]] : order[i];
     joined += same ? 1 : 0;
   }
@@ -177,7 +177,7 @@ std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, d
     for (int neighbor = 0; neighbor < 27; ++neighbor) {
       const Cell other{cell[0] + neighbor % 3 - 1, cell[1] + neighbor / 3 % 3 - 1,
                        cell[2] + neighbor / 9 - 1};
-      // Only with the first in a cell, so that a crowd costs no more than its number.
+      // Tests only the first vertex of a cell, so that the cost is linear in dense clusters.
       const auto found = std::lower_bound(cells.begin(), cells.end(), std::pair(other, 0u));
       if (found == cells.end() || found->first != other || found->second == v) continue;
       if ((mesh.vertices[found->second] - mesh.vertices[v]).norm() > tolerance_m) continue;
@@ -191,7 +191,7 @@ std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, d
 std::size_t drop_degenerate(RawMesh& mesh) {
   const std::size_t before = mesh.polygons.size();
   rewrite_polygons(mesh, [&](std::size_t, std::vector<std::uint32_t>& corners) {
-    trim(mesh, corners);
+    remove_spikes(mesh, corners);
     if (corners.size() < 3 || !has_area(mesh, corners)) corners.clear();
   });
   return before - mesh.polygons.size();
@@ -200,42 +200,44 @@ std::size_t drop_degenerate(RawMesh& mesh) {
 std::size_t drop_duplicates(RawMesh& mesh) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> hashes;
   for (std::uint32_t p = 0; p < mesh.polygons.size(); ++p) {
-    std::uint64_t sum = mesh.polygons[p].corner_count;  // of any order
+    std::uint64_t sum = mesh.polygons[p].corner_count;  // independent of the order of vertices
     for (const std::uint32_t v : mesh.polygon_corners(p)) sum += mix(v);
     hashes.emplace_back(sum, p);
   }
   std::sort(hashes.begin(), hashes.end());
-  enum class Fate : std::uint8_t { kKept, kSame, kOpposite };
-  std::vector<Fate> fates(mesh.polygons.size(), Fate::kKept);
+  enum class Duplicate : std::uint8_t { kUnique, kSame, kOpposite };
+  std::vector<Duplicate> duplicates(mesh.polygons.size(), Duplicate::kUnique);
   std::size_t opposite = 0;
   for (std::size_t i = 1, first = 0; i < hashes.size(); ++i) {
     if (hashes[i].first != hashes[first].first) first = i;
     if (i == first) continue;
     const PolygonKey key = key_of(mesh.polygon_corners(hashes[i].second));
-    // More than a few coincident polygons are one pair and copies of it.
+    // Four candidates suffice: more coincident polygons are copies of one pair.
     for (std::size_t j = first; j < std::min(i, first + 4); ++j) {
       const PolygonKey other = key_of(mesh.polygon_corners(hashes[j].second));
       if (other.sorted != key.sorted) continue;
-      Fate& fate = fates[hashes[i].second];
+      Duplicate& duplicate = duplicates[hashes[i].second];
       if (other.flipped == key.flipped) {
-        fate = Fate::kSame;
+        duplicate = Duplicate::kSame;
         break;
       }
-      fate = Fate::kOpposite;
+      duplicate = Duplicate::kOpposite;
     }
-    if (fates[hashes[i].second] == Fate::kOpposite) ++opposite;
+    if (duplicates[hashes[i].second] == Duplicate::kOpposite) ++opposite;
   }
   const bool double_sided = opposite > mesh.polygons.size() / 4;
   const std::size_t before = mesh.polygons.size();
   rewrite_polygons(mesh, [&](std::size_t p, std::vector<std::uint32_t>& corners) {
-    if (fates[p] == Fate::kSame || (fates[p] == Fate::kOpposite && double_sided)) corners.clear();
+    if (duplicates[p] == Duplicate::kSame ||
+        (duplicates[p] == Duplicate::kOpposite && double_sided))
+      corners.clear();
   });
   return before - mesh.polygons.size();
 }
 
 void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted) {
-  // The corners are rewritten as copies of the edge's start, then get their own vertices, and what
-  // else corners have by where these are on the edge.
+  // New corners are first copies of the corner at the edge's start. Then they get their vertices,
+  // and attributes interpolated by the positions of the vertices along the edge.
   struct Between {
     std::size_t corner, start, end;
   };
@@ -264,20 +266,20 @@ void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted) {
     const Vec3& start = mesh.vertices[mesh.corners[b.start]];
     const Vec3 edge = mesh.vertices[mesh.corners[b.end]] - start;
     const double along = (mesh.vertices[mesh.corners[b.corner]] - start).dot(edge);
-    const auto share =
+    const auto fraction =
         static_cast<float>(std::clamp(along / std::max(edge.squaredNorm(), 1e-300), 0.0, 1.0));
-    const auto blend = [&](auto& values) {
+    const auto interpolate = [&](auto& values) {
       if (values.empty()) return;
-      values[b.corner] = (1 - share) * values[b.start] + share * values[b.end];
+      values[b.corner] = (1 - fraction) * values[b.start] + fraction * values[b.end];
     };
-    blend(mesh.corner_normals);
-    blend(mesh.corner_uvs);
+    interpolate(mesh.corner_normals);
+    interpolate(mesh.corner_uvs);
   }
 }
 
 std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_half_edges,
                              double tolerance_m) {
-  constexpr std::size_t kMostTried = 2'000'000;
+  constexpr std::size_t kMaxCandidates = 2'000'000;
   std::vector<std::uint32_t> next(mesh.corners.size());
   for (const RawMesh::Polygon& polygon : mesh.polygons) {
     for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
@@ -298,12 +300,12 @@ std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_
   const Bvh bvh(boxes);
   std::vector<Insertion> found;
   std::vector<std::uint32_t> near;
-  std::size_t tried = 0;
+  std::size_t candidates = 0;
   for (const std::uint32_t v : open_vertices) {
     near.clear();
     bvh.within(mesh.vertices[v], tolerance_m, near);
-    tried += near.size();
-    if (tried > kMostTried) return 0;  // a soup: nothing to gain
+    candidates += near.size();
+    if (candidates > kMaxCandidates) return 0;  // a polygon soup: not worth the work
     for (const std::uint32_t e : near) {
       const std::uint32_t c = open_half_edges[e];
       const Vec3 a = mesh.vertices[mesh.corners[c]];

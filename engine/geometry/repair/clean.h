@@ -1,4 +1,4 @@
-// The first tier of repair: vertices that are one, and faces that are none.
+// The first tier of repair: joins vertices and removes degenerate and duplicate polygons.
 #pragma once
 
 #include <compare>
@@ -12,39 +12,41 @@
 
 namespace sunder {
 
-/// Twice the area of a polygon times its normal (Newell).
+/// Returns twice the area of a polygon times its unit normal (Newell), in m².
 Vec3 double_area(const RawMesh& mesh, std::size_t polygon);
-/// Replaces every polygon by those that `rewrite` leaves of its corners, given as indices into the
-/// mesh's corners; no corners, no polygon.
+/// Calls `rewrite` for every polygon with the indices of its corners, and replaces its corners by
+/// those that `rewrite` leaves. A polygon without corners is removed.
 void rewrite_polygons(
     RawMesh& mesh,
     const std::function<void(std::size_t polygon, std::vector<std::uint32_t>& corners)>& rewrite);
-/// Appends a polygon with the group of another, without attributes.
+/// Appends a polygon of a group, with zero normals and texture coordinates if the mesh has these.
 void append_polygon(RawMesh& mesh, std::span<const std::uint32_t> vertices, std::uint32_t group);
-/// Turns its corners' order round, so that it faces the other way.
+/// Reverses the corners of a polygon, so that it faces the other way.
 void reverse_polygon(RawMesh& mesh, std::size_t polygon);
-/// Drops vertices that no polygon has.
+/// Removes vertices that no polygon uses.
 void drop_unused_vertices(RawMesh& mesh);
 
-/// Joins vertices of exactly the same position; returns how many went.
+/// Joins vertices of exactly equal position. Returns the number of vertices removed.
 std::size_t join_identical(RawMesh& mesh);
-/// Joins those of the given vertices that lie within `tolerance_m` of one another.
+/// Joins the given vertices within `tolerance_m` of each other. Returns the number of joins.
 std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, double tolerance_m);
-/// Drops repeated corners, spikes and polygons without area; returns how many polygons went.
+/// Removes repeated corners, spikes and degenerate polygons. Returns how many polygons it removed.
 std::size_t drop_degenerate(RawMesh& mesh);
-/// Drops polygons that repeat another's vertices, with the same sense; of opposite sense only if
-/// the mesh is double-sided throughout (else they are two solids that touch).
+/// Removes polygons with the vertices and orientation of another; those of opposite orientation
+/// only if more than a quarter of the mesh is double-sided, since otherwise they belong to two
+/// solids that touch. Returns the number of polygons removed.
 std::size_t drop_duplicates(RawMesh& mesh);
-/// A vertex to be put into an edge. Half-edge c goes from corner c to the next.
+/// A vertex to insert into an edge. Half-edge c goes from corner c to the polygon's next corner.
 struct Insertion {
   std::uint32_t half_edge;
-  double along;  ///< From the half-edge's start, in any unit.
+  double along;  ///< Position from the start of the half-edge, in any unit.
   std::uint32_t vertex;
   auto operator<=>(const Insertion&) const = default;
 };
-/// Puts vertices into edges; texture coordinates and normals are between those of the edge's ends.
+/// Inserts vertices, sorted, into edges. Normals and texture coordinates are interpolated.
 void insert_in_edges(RawMesh& mesh, const std::vector<Insertion>& sorted);
-/// Puts open vertices that lie on open edges into those edges; returns how many were put.
+/// Inserts ends of open edges into other open edges on which they lie (T-junctions). Returns the
+/// number of insertions; 0 if there are too many candidates.
 std::size_t join_t_junctions(RawMesh& mesh, std::span<const std::uint32_t> open_half_edges,
                              double tolerance_m);
 

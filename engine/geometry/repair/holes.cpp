@@ -9,18 +9,17 @@
 namespace sunder {
 namespace {
 
-/// Loops with more corners than this are not holes but missing halves.
-constexpr std::size_t kLongest = 2000;
-/// A loop is planar whose corners lie within this part of its length of a plane.
-constexpr double kPlanar = 1e-5;
-/// A patch over a curved loop is at most this part of the area of the shell around it: about as
-/// large, it would lie on the shell.
-constexpr double kLargestPatch = 0.9;
+/// Loops with more corners than this are taken for missing parts of the mesh and stay open.
+constexpr std::size_t kMaxLoopCorners = 2000;
+/// Greatest distance of corners of a planar loop from its plane, over the length of the loop.
+constexpr double kPlanarLoopTolerance = 1e-5;
+/// Greatest area of a curved loop's patch over the shell's; a larger patch would lie on the shell.
+constexpr double kMaxPatchAreaRatio = 0.9;
 
-/// The corners that a polygon filling a hole has, in its order.
+/// A loop of open edges, with vertices in the order of the polygon that would close it.
 struct Loop {
   std::vector<std::uint32_t> vertices;
-  std::uint32_t polygon;  ///< One that it borders.
+  std::uint32_t polygon;  ///< A polygon at the loop.
 };
 
 std::vector<Loop> open_loops(const Surface& surface) {
@@ -33,7 +32,7 @@ std::vector<Loop> open_loops(const Surface& surface) {
     loop.polygon = surface.polygon[start];
     for (std::uint32_t c = start; c != Surface::kNone;) {
       const std::uint32_t v = surface.mesh.corners[c];
-      if (open_from[v] == Surface::kNone) break;  // walked before
+      if (open_from[v] == Surface::kNone) break;  // already in a loop
       open_from[v] = Surface::kNone;
       loop.vertices.push_back(v);
       c = open_from[surface.mesh.corners[surface.next(c)]];
@@ -63,7 +62,7 @@ bool is_planar(const std::vector<Vec3>& points) {
   if (!(normal.norm() > 1e-9 * length * length)) return false;
   normal.normalize();
   return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
-    return std::abs(normal.dot(p - center)) <= kPlanar * length;
+    return std::abs(normal.dot(p - center)) <= kPlanarLoopTolerance * length;
   });
 }
 
@@ -75,7 +74,7 @@ double area_of(const std::vector<Vec3>& points, const std::vector<Triangle>& tri
   return area;
 }
 
-/// Whether a planar contour does not cross itself: then its triangles do not overlap.
+/// Returns true if a planar contour does not cross itself: its triangles do not overlap.
 bool is_simple(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   Vec3 twice = Vec3::Zero();
   for (std::size_t i = 2; i < points.size(); ++i) {
@@ -97,15 +96,15 @@ ClosedHoles close_holes(Surface& surface) {
   }
   for (const Loop& loop : loops) {
     const std::size_t n = loop.vertices.size();
-    if (n < 3 || n > kLongest) {
-      ++closed.left;
+    if (n < 3 || n > kMaxLoopCorners) {
+      ++closed.left_open;
       continue;
     }
     const std::vector<Vec3> points = points_of(surface, loop);
     const bool planar = is_planar(points);
     const std::vector<Triangle> triangles = triangulate(points);
-    if (!planar && area_of(points, triangles) > kLargestPatch * area[shell[loop.polygon]]) {
-      ++closed.left;
+    if (!planar && area_of(points, triangles) > kMaxPatchAreaRatio * area[shell[loop.polygon]]) {
+      ++closed.left_open;
       continue;
     }
     ++(planar ? closed.planar : closed.curved);

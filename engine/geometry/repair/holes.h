@@ -1,4 +1,4 @@
-// The third tier of repair: closing what is open.
+// The third tier of repair: closes holes.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 namespace sunder {
 
-/// How many loops of open edges were closed, and how.
+/// Numbers of loops of open edges, by how they were closed.
 struct ClosedHoles {
-  std::size_t planar = 0;  ///< Closed by one polygon, or by triangles where it crosses itself.
-  std::size_t curved = 0;  ///< Closed by triangles of least area.
-  std::size_t left = 0;    ///< Too long, or too large for the patch around them.
+  std::size_t planar = 0;  ///< Closed by one polygon, or by triangles if the loop crosses itself.
+  std::size_t curved = 0;  ///< Closed by triangles, of least area if the loop is short.
+  std::size_t left_open = 0;  ///< Not closed: too many corners, or too large an area.
 };
 
-/// Appends polygons that close the loops of open edges of a surface whose vertices are split.
-/// Pair the edges of `surface.mesh` again afterwards.
+/// Appends polygons that close the loops of open edges. The vertices of the surface must have been
+/// split (split_vertices()), and the edges of `surface.mesh` must be paired again afterwards.
 ClosedHoles close_holes(Surface& surface);
 
 }  // namespace sunder

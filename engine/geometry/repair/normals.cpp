@@ -12,7 +12,7 @@ double angle_at(const Surface& surface, std::uint32_t corner) {
   return arc_tangent(a.cross(b).norm(), a.dot(b));
 }
 
-/// Walks around vertices, corner by corner, as far as it is smooth.
+/// Enumerates the fans of corners around vertices that are connected without a crease.
 class Fans {
  public:
   Fans(const Surface& surface, double crease_cosine) : surface_(surface), crease_(crease_cosine) {
@@ -54,12 +54,12 @@ class Fans {
   }
 
  private:
-  /// The corner at the same vertex in the face across the corner's own half-edge.
+  /// Returns the corner at this vertex across the corner's half-edge; kNone if open or a crease.
   std::uint32_t before(std::uint32_t corner) const {
     const std::uint32_t back = surface_.twin[corner];
     return back == Surface::kNone ? back : unless_creased(corner, surface_.next(back));
   }
-  /// Likewise across the half-edge that arrives at it.
+  /// Returns the corner at this vertex across the half-edge before it; kNone if open or a crease.
   std::uint32_t after(std::uint32_t corner) const {
     const std::uint32_t back = surface_.twin[surface_.previous(corner)];
     return back == Surface::kNone ? back : unless_creased(corner, back);

@@ -1,4 +1,4 @@
-// Shading normals for corners that have none.
+// Shading normals of a repaired surface.
 #pragma once
 
 #include <span>
@@ -8,8 +8,9 @@
 
 namespace sunder {
 
-/// A unit normal per corner: the file's where there is one, flipped outward; else the mean,
-/// weighted by angle, of the faces around the vertex that no crease parts from the corner's own.
+/// Returns a unit normal for each corner: that of the file, flipped outward, if there is one; else
+/// the angle-weighted mean over the faces around the vertex that no crease separates from the
+/// corner's. The normals of two faces at a crease have a cosine below `crease_cosine`.
 std::vector<Vec3f> shading_normals(const Surface& surface, double crease_cosine);
 
 }  // namespace sunder

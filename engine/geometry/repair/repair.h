@@ -1,9 +1,10 @@
-// From meshes as they come to solids that can be broken: repaired in tiers, each repair named.
+// Repair of mesh files: makes watertight solids of arbitrary meshes and reports each repair by name
+// (docs/decisions/007-mesh-input.md).
 //
-// Read first: repair_mesh() in repair.cpp, which is the list of tiers. Vertices and faces are
-// cleaned (clean.h), edges paired and faces oriented (surface.h), holes closed (holes.h); what
-// still encloses nothing is enclosed by a winding-number shell (shell.h). solids.h makes polygon
-// meshes of what is closed.
+// Begin with repair_mesh() in repair.cpp, which calls the tiers in order. Vertices and faces are
+// cleaned (clean.h), faces oriented and edges paired (surface.h), and holes closed (holes.h). Parts
+// still open are replaced by an isosurface of their winding number (shell.h). solids.h makes
+// polygon meshes of closed shells.
 #pragma once
 
 #include <cstddef>
@@ -16,32 +17,32 @@
 
 namespace sunder {
 
-/// What may be done to a mesh.
+/// Options of repair_mesh().
 struct RepairOptions {
-  bool repair = true;  ///< If not, a mesh that needs it is refused.
-  /// Where the file gives no normals, edges are smooth whose faces' normals meet at this or more.
+  bool repair = true;  ///< False to throw InputError for a mesh that needs repairs.
+  /// Least cosine between face normals at a smooth edge, where the file has no normals.
   double crease_cosine = 0.766;    // 40 degrees
-  std::uint32_t shell_cells = 32;  ///< Along the longest side of what the last tier encloses.
-  bool enclose_all = false;        ///< Whether the last tier encloses what is closed, too.
+  std::uint32_t shell_cells = 32;  ///< Grid cells of the last tier along the longest side.
+  bool enclose_all = false;        ///< True to pass closed parts to the last tier too.
 };
 
-/// Something that was done to a mesh, and to how many of its parts.
+/// A kind of repair, and the number of elements of the mesh that it was applied to.
 struct Repair {
   std::string name;
   std::size_t count = 0;
-  bool harmless = false;  ///< The same surface, written otherwise: done even where repair is off.
+  bool harmless = false;  ///< True if the surface stays the same; allowed even with `repair` off.
 };
 
-/// Solids that can be broken, and what was done to get them.
+/// The watertight solids of a mesh, and the repairs that were made.
 struct RepairedMesh {
-  std::vector<PolygonMesh> shells;  ///< Watertight, of positive volume; they may overlap.
-  std::vector<Repair> repairs;      ///< In the order done; empty if the mesh was sound.
-  bool closed = false;              ///< Whether the mesh was watertight as given.
+  std::vector<PolygonMesh> shells;  ///< Watertight, with positive volume; may overlap.
+  std::vector<Repair> repairs;      ///< In the order made; empty if the mesh needed none.
+  bool closed = false;              ///< True if the mesh was watertight as given.
 };
 
-/// Watertight solids of a mesh: one per shell, cavities with the shell around them. Polygons stay
-/// polygons unless they are not planar. Throws InputError naming `name`, what is wrong and what to
-/// do, if the mesh encloses nothing, or needs repairs and may not have them. Work is bounded.
+/// Returns the watertight solids of a mesh: one for each outer shell, with the cavities in it.
+/// Planar polygons are not triangulated. Throws InputError, with `name`, fault and remedy, if the
+/// mesh encloses no volume, or needs repairs and `options.repair` is false. Work is bounded.
 RepairedMesh repair_mesh(RawMesh mesh, const std::string& name, const RepairOptions& options = {});
 
 }  // namespace sunder

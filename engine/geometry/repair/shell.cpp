@@ -1,5 +1,5 @@
-// Marching tetrahedra: each cube of the grid is six tetrahedra around a diagonal, which meet those
-// of the next cube exactly, so the surface closes by itself.
+// Marching tetrahedra: each cube of the grid is divided into six tetrahedra around a diagonal,
+// whose faces match those of adjacent cubes, so the surface is closed.
 #include "engine/geometry/repair/shell.h"
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 namespace sunder {
 namespace {
 
-/// Inside is what the mesh encloses by more than this. Beside a lone triangle it is one half.
-constexpr double kEnclosed = 0.6;
-constexpr double kMostWork = 1.5e7;  ///< Triangles and dipoles added up over the grid.
-constexpr std::uint32_t kFewestCells = 4;
-constexpr int kHalvings = 4;  ///< Of a grid edge, to find where the surface crosses it.
+/// Winding number above which a point is inside; next to a single triangle it is 1/2.
+constexpr double kInsideThreshold = 0.6;
+constexpr double kMaxWork = 1.5e7;  ///< Bound on the triangles and dipoles to sum over the grid.
+constexpr std::uint32_t kMinCellsAlong = 4;  ///< The grid is not made coarser than about this.
+constexpr int kBisections = 4;  ///< Bisection steps to find the crossing of a grid edge.
 
-using GridEdge = std::pair<std::uint32_t, std::uint32_t>;  ///< From inside to outside.
+using GridEdge = std::pair<std::uint32_t, std::uint32_t>;  ///< Grid points inside and outside.
 
 std::vector<std::array<Vec3, 3>> triangles_of(const RawMesh& mesh) {
   std::vector<std::array<Vec3, 3>> triangles;
@@ -44,7 +44,7 @@ class WindingGrid {
     for (const std::uint32_t v : mesh.corners) box.extend(mesh.vertices[v]);
     do {
       lay_out(box, cells_along);
-    } while (too_much_work() && (cells_along -= cells_along / 4) > kFewestCells);
+    } while (too_much_work() && (cells_along -= cells_along / 4) > kMinCellsAlong);
     sample();
   }
 
@@ -70,15 +70,15 @@ class WindingGrid {
 
   std::uint32_t point_count() const { return size_[0] * size_[1] * size_[2]; }
 
-  /// By the work that some of the points take: triangles that all overlap take a lot.
+  /// Returns true if samples predict more work than kMaxWork, as for overlapping triangles.
   bool too_much_work() const {
-    constexpr std::uint32_t kProbes = 64;
+    constexpr std::uint32_t kWorkSamples = 64;
     std::size_t work = 0;
-    for (std::uint32_t i = 0; i < kProbes; ++i) {
-      const auto some = static_cast<std::uint32_t>(mix(i) % point_count());
-      work += field_.work_at(place(some));
+    for (std::uint32_t i = 0; i < kWorkSamples; ++i) {
+      const auto grid_point = static_cast<std::uint32_t>(mix(i) % point_count());
+      work += field_.work_at(place(grid_point));
     }
-    return static_cast<double>(work) / kProbes * point_count() > kMostWork;
+    return static_cast<double>(work) / kWorkSamples * point_count() > kMaxWork;
   }
 
   std::uint32_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
@@ -87,28 +87,28 @@ class WindingGrid {
   Vec3 place(std::uint32_t i) const {
     return origin_ + cell_ * Vec3(i % size_[0], i / size_[0] % size_[1], i / size_[0] / size_[1]);
   }
-  bool encloses(const Vec3& point) const { return sense_ * field_.at(point) > kEnclosed; }
+  bool encloses(const Vec3& point) const { return sense_ * field_.at(point) > kInsideThreshold; }
 
-  bool on_rim(std::uint32_t i) const {
+  bool is_on_boundary(std::uint32_t i) const {
     const std::uint32_t at[3] = {i % size_[0], i / size_[0] % size_[1], i / size_[0] / size_[1]};
-    bool rim = false;
-    for (std::size_t k = 0; k < 3; ++k) rim = rim || at[k] == 0 || at[k] + 1 == size_[k];
-    return rim;
+    bool boundary = false;
+    for (std::size_t k = 0; k < 3; ++k) boundary = boundary || at[k] == 0 || at[k] + 1 == size_[k];
+    return boundary;
   }
 
   void sample() {
     std::vector<double> winding(point_count(), 0);
     for_chunks(winding.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-        if (!on_rim(i)) winding[i] = field_.at(place(i));
+        if (!is_on_boundary(i)) winding[i] = field_.at(place(i));
       }
     });
-    const auto beyond = [&](double sense) {
+    const auto count_inside = [&](double sense) {
       return std::count_if(winding.begin(), winding.end(),
-                           [sense](double w) { return sense * w > kEnclosed; });
+                           [sense](double w) { return sense * w > kInsideThreshold; });
     };
-    sense_ = beyond(1) >= beyond(-1) ? 1 : -1;
-    for (const double w : winding) inside_.push_back(sense_ * w > kEnclosed ? 1 : 0);
+    sense_ = count_inside(1) >= count_inside(-1) ? 1 : -1;
+    for (const double w : winding) inside_.push_back(sense_ * w > kInsideThreshold ? 1 : 0);
   }
 
   void march(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
@@ -119,14 +119,14 @@ class WindingGrid {
       count += inside_[cube[k]];
     }
     if (count == 0 || count == 8) return;
-    // From corner 0 to corner 7 along three axes, in each of their orders; all right-handed.
+    // Each goes from corner 0 to corner 7 along the three axes in one order; all are right-handed.
     constexpr std::uint32_t kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 4, 5, 7},
                                                  {0, 6, 4, 7}, {0, 2, 6, 7}, {0, 3, 2, 7}};
     for (const auto& t : kTetrahedra) tetrahedron({cube[t[0]], cube[t[1]], cube[t[2]], cube[t[3]]});
   }
 
   void tetrahedron(std::array<std::uint32_t, 4> t) {
-    // Inside corners first, by an even permutation, which keeps the handedness.
+    // Sorts inside corners first; an odd permutation reverses the orientation of the triangles.
     std::array<std::uint32_t, 4> sorted = t;
     std::stable_partition(sorted.begin(), sorted.end(),
                           [&](std::uint32_t i) { return inside_[i] != 0; });
@@ -179,7 +179,7 @@ class WindingGrid {
   Vec3 crossing(const GridEdge& edge) const {
     const Vec3 from = place(edge.first), to = place(edge.second);
     double low = 0, high = 1;
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (low + high);
       (encloses(from + middle * (to - from)) ? low : high) = middle;
     }
@@ -189,10 +189,10 @@ class WindingGrid {
   WindingField field_;
   Vec3 origin_;
   double cell_ = 0;
-  double sense_ = 1;  ///< -1 if the mesh is inside out.
+  double sense_ = 1;  ///< Factor of winding numbers: -1 if the mesh is inside out.
   std::array<std::uint32_t, 3> size_{};
   std::vector<std::uint8_t> inside_;
-  std::vector<GridEdge> corners_;  ///< Of triangles, three by three.
+  std::vector<GridEdge> corners_;  ///< Three for each triangle.
 };
 
 }  // namespace

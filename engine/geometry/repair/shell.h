@@ -1,4 +1,4 @@
-// The last tier of repair: a new, closed surface around whatever a mesh seems to enclose.
+// The last tier of repair: a closed isosurface of the winding number of an open mesh.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,9 @@
 
 namespace sunder {
 
-/// The surface where the mesh's winding number passes 0.6, on a grid with `cells_along` cells along
-/// the mesh's longest side; closed, facing outward, without attributes. Empty if the mesh encloses
-/// nothing that the grid sees. The grid is coarser where so many triangles overlap that it would
-/// take seconds.
+/// Returns the isosurface at 0.6 of the mesh's winding number, on a grid with `cells_along` cells
+/// along the mesh's longest side: closed, facing outward, without attributes. Empty if no grid
+/// point is inside. Where very many triangles overlap, the grid is coarser to bound the work.
 RawMesh winding_shell(const RawMesh& mesh, std::uint32_t cells_along);
 
 }  // namespace sunder

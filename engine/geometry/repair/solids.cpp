@@ -14,11 +14,11 @@
 namespace sunder {
 namespace {
 
-/// Corners may lie this part of the mesh's size off their polygon's plane: volumes are exact to
-/// about as much.
-constexpr double kOffPlane = 1e-13;
-/// More shells than this that face inward, or might hold one, are not searched.
-constexpr std::size_t kMostCavities = 256, kMostHolders = 64;
+/// Greatest distance of a polygon's corners from its plane over the mesh's diagonal, and about the
+/// relative error of volumes.
+constexpr double kPlanarPolygonTolerance = 1e-13;
+/// Greatest numbers of inward shells for which cavities are searched, and of outer shells tested.
+constexpr std::size_t kMaxCavities = 256, kMaxHolders = 64;
 
 Plane plane_of(const RawMesh& mesh, std::size_t polygon) {
   const Vec3 normal = double_area(mesh, polygon).normalized();
@@ -34,7 +34,7 @@ void append_corner(RawMesh& to, const RawMesh& from, std::uint32_t corner) {
   if (!from.corner_uvs.empty()) to.corner_uvs.push_back(from.corner_uvs[corner]);
 }
 
-/// The shells of a surface, each with its box and signed volume.
+/// The shells of a surface, with their boxes and signed volumes.
 struct Shells {
   std::vector<std::uint32_t> of_polygon;
   std::uint32_t count = 0;
@@ -67,17 +67,17 @@ struct Shells {
   }
 };
 
-/// For each shell that faces inward the smallest outward one around it, or kNone.
+/// Returns for each shell the smallest outward shell around it if it faces inward, else kNone.
 std::vector<std::uint32_t> shells_around(const Surface& surface, const Shells& shells) {
   std::vector<std::uint32_t> around(shells.count, Surface::kNone);
   std::vector<std::uint32_t> inward;
   for (std::uint32_t s = 0; s < shells.count; ++s) {
     if (shells.volume[s] < 0) inward.push_back(s);
   }
-  if (inward.size() > kMostCavities) return around;
-  std::vector<Vec3> some_point(shells.count);
+  if (inward.size() > kMaxCavities) return around;
+  std::vector<Vec3> point_on(shells.count);
   for (std::size_t p = 0; p < shells.of_polygon.size(); ++p) {
-    some_point[shells.of_polygon[p]] = surface.mesh.vertices[surface.mesh.polygon_corners(p)[0]];
+    point_on[shells.of_polygon[p]] = surface.mesh.vertices[surface.mesh.polygon_corners(p)[0]];
   }
   std::map<std::uint32_t, WindingField> fields;
   for (const std::uint32_t s : inward) {
@@ -87,9 +87,9 @@ std::vector<std::uint32_t> shells_around(const Surface& surface, const Shells& s
       if (!(shells.volume[t] > -shells.volume[s]) || !smaller) continue;
       if ((shells.box[s].min.array() < shells.box[t].min.array()).any()) continue;
       if ((shells.box[s].max.array() > shells.box[t].max.array()).any()) continue;
-      if (!fields.contains(t) && fields.size() == kMostHolders) continue;
+      if (!fields.contains(t) && fields.size() == kMaxHolders) continue;
       if (!fields.contains(t)) fields.emplace(t, shells.field(surface, t));
-      if (fields.at(t).at(some_point[s]) > 0.5) around[s] = t;
+      if (fields.at(t).at(point_on[s]) > 0.5) around[s] = t;
     }
   }
   return around;
@@ -127,7 +127,7 @@ void append(RawMesh& mesh, const RawMesh& other) {
 std::size_t triangulate_curved(RawMesh& mesh) {
   Box box;
   for (const std::uint32_t v : mesh.corners) box.extend(mesh.vertices[v]);
-  const double tolerance = kOffPlane * box.extent().norm();
+  const double tolerance = kPlanarPolygonTolerance * box.extent().norm();
   std::size_t count = 0;
   RawMesh result;
   std::vector<Vec3> contour;
@@ -165,12 +165,12 @@ std::size_t triangulate_curved(RawMesh& mesh) {
   return count;
 }
 
-std::size_t face_outward(Surface& surface, std::vector<std::uint32_t>& solid,
-                         std::uint32_t& count) {
+std::size_t orient_outward(Surface& surface, std::vector<std::uint32_t>& solid,
+                           std::uint32_t& count) {
   std::size_t flipped = 0;
   Shells shells(surface);
   if (std::accumulate(shells.volume.begin(), shells.volume.end(), 0.0) < 0) {
-    flipped += shells.count;  // the whole mesh is inside out
+    flipped += shells.count;  // the mesh as a whole is inside out
     flip(surface, std::vector<std::uint8_t>(surface.mesh.polygons.size(), 1));
     shells = Shells(surface);
   }
@@ -204,7 +204,7 @@ std::vector<PolygonMesh> polygon_meshes(const Surface& surface,
   const RawMesh& mesh = surface.mesh;
   const std::vector<Vec3f> normals = shading_normals(surface, crease_cosine);
   std::vector<PolygonMesh> meshes(count);
-  // No vertex is in two solids: every fan has its own.
+  // No vertex is in two solids, since every fan has its own vertices.
   std::vector<std::uint32_t> new_of_old(mesh.vertices.size(), Surface::kNone);
   for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
     PolygonMesh& part = meshes[solid[p]];

@@ -1,4 +1,4 @@
-// The end of repair: closed shells that face outward, as polygon meshes.
+// The end of repair: orients closed shells outward and makes polygon meshes of them.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,18 @@
 
 namespace sunder {
 
-/// The polygons for which `keep` is not zero.
+/// Returns the polygons for which `keep` is not zero, with the vertices that they use.
 RawMesh extract(const RawMesh& mesh, const std::vector<std::uint8_t>& keep);
-/// Appends `other`, whose polygons get no group of their own and no attributes.
+/// Appends the polygons of `other`, without group, normals and texture coordinates.
 void append(RawMesh& mesh, const RawMesh& other);
-/// Replaces polygons whose corners lie in no plane by triangles; returns how many.
+/// Replaces non-planar polygons by triangles. Returns the number of polygons replaced.
 std::size_t triangulate_curved(RawMesh& mesh);
-/// Flips shells that face inward, save cavities in others; returns how many. `solid` becomes the
-/// number of each polygon's solid, a shell with its cavities; `count` how many solids there are.
-std::size_t face_outward(Surface& surface, std::vector<std::uint32_t>& solid, std::uint32_t& count);
-/// A mesh per solid, with shading normals.
+/// Flips shells that face inward and are not cavities. Returns the number of shells flipped.
+/// `solid` becomes the number of each polygon's solid (shell with cavities), `count` that of
+/// solids.
+std::size_t orient_outward(Surface& surface, std::vector<std::uint32_t>& solid,
+                           std::uint32_t& count);
+/// Returns a mesh for each solid, with shading normals as of shading_normals().
 std::vector<PolygonMesh> polygon_meshes(const Surface& surface,
                                         const std::vector<std::uint32_t>& solid,
                                         std::uint32_t count, double crease_cosine);

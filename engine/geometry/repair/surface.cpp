@@ -13,7 +13,7 @@
 namespace sunder {
 namespace {
 
-/// The half-edges of a mesh by the edge they lie on.
+/// The half-edges of a mesh, grouped by edge.
 class EdgeTable {
  public:
   explicit EdgeTable(const RawMesh& mesh) : start_(mesh.vertices.size() + 1, 0) {
@@ -36,7 +36,7 @@ class EdgeTable {
     }
   }
 
-  /// Calls `visit(half-edges)` for each edge, in a fixed order.
+  /// Calls `visit(half_edges)` for each edge, in a deterministic order.
   template <class Visit>
   void each(const Visit& visit) const {
     std::vector<std::uint32_t> group;
@@ -53,9 +53,9 @@ class EdgeTable {
   }
 
  private:
-  std::vector<std::uint32_t> to_;
-  std::vector<std::uint32_t> start_;  ///< Of the edges by their lower vertex.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries_;
+  std::vector<std::uint32_t> to_;     ///< End vertex of each half-edge.
+  std::vector<std::uint32_t> start_;  ///< First entry of each lower vertex.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries_;  ///< Higher vertex, half-edge.
 };
 
 std::vector<std::uint32_t> polygon_of_corners(const RawMesh& mesh) {
@@ -67,49 +67,50 @@ std::vector<std::uint32_t> polygon_of_corners(const RawMesh& mesh) {
   return polygon;
 }
 
-/// A half-edge among others around its edge.
-struct Spoke {
-  std::int64_t angle;  ///< About the edge, in steps coarse enough for coincident faces to tie.
-  bool backward;       ///< Runs from the edge's higher vertex; solid follows with growing angle.
+/// A half-edge with its angle about the edge.
+struct SortedHalfEdge {
+  std::int64_t angle;  ///< In steps of 1e-7 rad, so that coincident faces have equal angles.
+  bool backward;       ///< Starts at the higher vertex: there is solid at larger angles.
   std::uint32_t half_edge;
-  auto operator<=>(const Spoke&) const = default;
+  auto operator<=>(const SortedHalfEdge&) const = default;
 };
 
-/// The half-edges of a crowded edge, sorted about it. At one angle a solid ends before one begins.
-std::vector<Spoke> spokes_around(const Surface& surface, std::span<const std::uint32_t> group,
-                                 std::span<const Vec3> normals) {
+/// Returns the half-edges of a non-manifold edge by angle; at equal angles, ends of solid first.
+std::vector<SortedHalfEdge> sort_around_edge(const Surface& surface,
+                                             std::span<const std::uint32_t> group,
+                                             std::span<const Vec3> normals) {
   const RawMesh& mesh = surface.mesh;
   const std::uint32_t low = std::min(mesh.corners[group[0]], mesh.corners[surface.next(group[0])]);
   Vec3 axis = Vec3::Zero(), side = Vec3::Zero();
-  std::vector<Spoke> spokes;
+  std::vector<SortedHalfEdge> around;
   for (const std::uint32_t c : group) {
     const bool backward = mesh.corners[c] != low;
     const Vec3 along = surface.point(surface.next(c)) - surface.point(c);
-    // Into the face: its normal turned about its edge.
+    // Direction in the face, perpendicular to the edge, into the polygon.
     const Vec3 in = normals[surface.polygon[c]].cross(along.normalized());
-    if (spokes.empty()) {
+    if (around.empty()) {
       axis = (backward ? -along : Vec3(along)).normalized();
       side = in;
     }
     const double angle = arc_tangent(axis.dot(side.cross(in)), side.dot(in));
     const std::int64_t step = std::llround(angle * 1e7);
-    spokes.push_back({step < -31415920 ? -step : step, backward, c});
+    around.push_back({step < -31415920 ? -step : step, backward, c});
   }
-  std::sort(spokes.begin(), spokes.end());
-  return spokes;
+  std::sort(around.begin(), around.end());
+  return around;
 }
 
-/// Pairs a backward spoke with the forward one that ends the solid it begins, like brackets.
-void pair_spokes(const std::vector<Spoke>& spokes, std::vector<std::uint32_t>& twin) {
+/// Pairs each backward half-edge with the forward one that ends its solid, like brackets.
+void pair_around_edge(const std::vector<SortedHalfEdge>& around, std::vector<std::uint32_t>& twin) {
   std::vector<std::uint32_t> begun;
-  for (int lap = 0; lap < 2; ++lap) {
-    for (const Spoke& spoke : spokes) {
-      if (twin[spoke.half_edge] != Surface::kNone) continue;
-      if (spoke.backward) {
-        if (lap == 0) begun.push_back(spoke.half_edge);
+  for (int turn = 0; turn < 2; ++turn) {
+    for (const SortedHalfEdge& sorted : around) {
+      if (twin[sorted.half_edge] != Surface::kNone) continue;
+      if (sorted.backward) {
+        if (turn == 0) begun.push_back(sorted.half_edge);
       } else if (!begun.empty()) {
-        twin[spoke.half_edge] = begun.back();
-        twin[begun.back()] = spoke.half_edge;
+        twin[sorted.half_edge] = begun.back();
+        twin[begun.back()] = sorted.half_edge;
         begun.pop_back();
       }
     }
@@ -130,7 +131,7 @@ EdgeFaults edge_faults(const RawMesh& mesh) {
   EdgeFaults faults;
   EdgeTable(mesh).each([&](std::span<const std::uint32_t> group) {
     if (group.size() == 1) ++faults.open;
-    if (group.size() > 2) ++faults.crowded;
+    if (group.size() > 2) ++faults.non_manifold;
     if (group.size() == 2 && mesh.corners[group[0]] == mesh.corners[group[1]]) {
       ++faults.inconsistent;
     }
@@ -195,13 +196,13 @@ Surface pair_edges(RawMesh mesh) {
   surface.mesh = std::move(mesh);
   surface.polygon = polygon_of_corners(surface.mesh);
   surface.twin.assign(surface.mesh.corners.size(), Surface::kNone);
-  std::vector<Vec3> normals;  // of the polygons, once an edge needs them
+  std::vector<Vec3> normals;  // of the polygons, computed when first needed
   EdgeTable(surface.mesh).each([&](std::span<const std::uint32_t> group) {
     if (group.size() > 2) {
       for (std::size_t p = normals.size(); p < surface.mesh.polygons.size(); ++p) {
         normals.push_back(double_area(surface.mesh, p).normalized());
       }
-      pair_spokes(spokes_around(surface, group, normals), surface.twin);
+      pair_around_edge(sort_around_edge(surface, group, normals), surface.twin);
     } else if (group.size() == 2 &&
                surface.mesh.corners[group[0]] != surface.mesh.corners[group[1]]) {
       surface.twin[group[0]] = group[1];
@@ -237,7 +238,7 @@ std::size_t split_vertices(Surface& surface) {
   return surface.mesh.vertices.size() - before;
 }
 
-std::size_t part_edges(Surface& surface) {
+std::size_t divide_repeated_edges(Surface& surface) {
   std::vector<Insertion> insertions;
   EdgeTable(surface.mesh).each([&](std::span<const std::uint32_t> group) {
     for (const std::uint32_t c : group.size() > 2 ? group : group.first(0)) {
@@ -276,7 +277,8 @@ std::vector<std::uint32_t> shells_of(const Surface& surface, std::uint32_t& coun
 std::vector<double> volumes(const RawMesh& mesh, const std::vector<std::uint32_t>& part,
                             std::uint32_t count) {
   std::vector<double> volume(count, 0);
-  std::vector<std::uint32_t> origin(count, Surface::kNone);  // of the part, where nothing cancels
+  std::vector<std::uint32_t> origin(count,
+                                    Surface::kNone);  // a vertex of each part
   for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
     const auto corners = mesh.polygon_corners(p);
     if (origin[part[p]] == Surface::kNone) origin[part[p]] = corners[0];

@@ -8,33 +8,33 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint32_t kLeafSize = 8;
-/// A node farther away than this many radii acts as one dipole.
-constexpr double kFar = 2.2;
+/// Distance of a node in radii beyond which it is approximated by a dipole.
+constexpr double kDipoleDistance = 2.2;
 
 Vec3 centroid(const std::array<Vec3, 3>& t) { return (t[0] + t[1] + t[2]) / 3; }
 
-/// The angle of (x, y), within 2e-5: plenty to tell in from out, and several times as fast as
-/// exact.
-double rough_angle(double y, double x) {
-  const double across = std::abs(y), along = std::abs(x);
-  const double longer = std::max(across, along);
+/// Returns the angle of (x, y) in rad with an error of at most 2e-5, which suffices to tell inside
+/// from outside, several times faster than arc_tangent().
+double approximate_angle(double y, double x) {
+  const double abs_y = std::abs(y), abs_x = std::abs(x);
+  const double longer = std::max(abs_y, abs_x);
   if (!(longer > 0)) return 0;
-  const double t = std::min(across, along) / longer, z = t * t;
-  // Minimax (Hastings 1955).
+  const double t = std::min(abs_y, abs_x) / longer, z = t * t;
+  // Minimax polynomial (Hastings 1955).
   const double slope =
       (((0.0208351 * z - 0.0851330) * z + 0.1801410) * z - 0.3302995) * z + 0.9998660;
-  const double angle = across > along ? kPi / 2 - slope * t : slope * t;
+  const double angle = abs_y > abs_x ? kPi / 2 - slope * t : slope * t;
   const double upper = x < 0 ? kPi - angle : angle;
   return y < 0 ? -upper : upper;
 }
 
-/// The signed solid angle of a triangle (van Oosterom and Strackee 1983).
+/// Returns the signed solid angle of a triangle in sr (van Oosterom and Strackee 1983).
 double solid_angle(const std::array<Vec3, 3>& t, const Vec3& point) {
   const Vec3 a = t[0] - point, b = t[1] - point, c = t[2] - point;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  const double across = a.dot(b.cross(c));
-  const double along = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2 * rough_angle(across, along);
+  const double sine_part = a.dot(b.cross(c));
+  const double cosine_part = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+  return 2 * approximate_angle(sine_part, cosine_part);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ void WindingField::build(std::uint32_t first, std::uint32_t count) {
   node.first = first;
   node.count = count;
   node.leaf = count <= kLeafSize;
-  summarise(node);
+  compute_dipole(node);
   nodes_.push_back(node);
   if (!node.leaf) {
     Box box;
@@ -68,7 +68,7 @@ void WindingField::build(std::uint32_t first, std::uint32_t count) {
   nodes_[index].next = static_cast<std::uint32_t>(nodes_.size());
 }
 
-void WindingField::summarise(Node& node) const {
+void WindingField::compute_dipole(Node& node) const {
   double total = 0;
   Vec3 mean = Vec3::Zero();
   for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -87,12 +87,12 @@ void WindingField::summarise(Node& node) const {
   }
 }
 
-/// Calls `far(node)` for nodes that act as one, `near(node)` for leaves that do not.
+/// Calls `far(node)` for nodes approximated by a dipole, and `near(leaf)` for other leaves.
 template <class Far, class Near>
-void WindingField::walk(const Vec3& point, const Far& far, const Near& near) const {
+void WindingField::visit_nodes(const Vec3& point, const Far& far, const Near& near) const {
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
-    const double reach = kFar * node.radius;
+    const double reach = kDipoleDistance * node.radius;
     const bool is_far = (node.center - point).squaredNorm() > reach * reach;
     if (is_far) {
       far(node);
@@ -115,13 +115,13 @@ double WindingField::at(const Vec3& point) const {
       angle += solid_angle(triangles_[i], point);
     }
   };
-  walk(point, dipole, triangles);
+  visit_nodes(point, dipole, triangles);
   return angle / (4 * kPi);
 }
 
 std::size_t WindingField::work_at(const Vec3& point) const {
   std::size_t work = 0;
-  walk(
+  visit_nodes(
       point, [&](const Node&) { ++work; }, [&](const Node& leaf) { work += leaf.count; });
   return work;
 }

@@ -1,4 +1,4 @@
-// Faces on common points become a mesh in which every edge lies in two faces.
+// The last steps of outer_surface(): common edges are divided, and faces become a mesh.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,22 +8,22 @@
 namespace sunder {
 namespace {
 
-/// A corner and the edge that starts there.
+/// A half-edge, with the corners at its ends.
 struct HalfEdge {
   std::uint32_t from = 0, to = 0;
-  std::uint32_t corner = 0, next_corner = 0;  ///< Counted over all faces.
+  std::uint32_t corner = 0, next_corner = 0;  ///< Numbered over all faces.
   std::uint32_t face = 0;
 };
 
-/// One of several pairs of faces, with solid between the two, that have an edge in common.
+/// A pair of faces with solid between them, at an edge that has several such pairs.
 struct TouchingPair {
-  std::uint32_t from = 0, to = 0;             ///< The ends of the edge.
-  std::array<std::uint32_t, 2> corners = {};  ///< Where the edge starts in the two faces.
-  std::uint32_t number = 0, count = 0;        ///< Of the pairs at the edge.
+  std::uint32_t from = 0, to = 0;             ///< Ends of the edge.
+  std::array<std::uint32_t, 2> corners = {};  ///< Start corners of the edge in the two faces.
+  std::uint32_t number = 0, count = 0;  ///< Number of the pair, and of all pairs, at the edge.
 };
 
-/// Gives corners at one point that no chain of faces connects different vertices, so that every
-/// edge lies in two faces by the numbers of its vertices.
+/// Assigns different vertices to corners at one point whose faces are not connected by common
+/// edges, so that every edge belongs to two faces by the numbers of its vertices.
 class VertexSeparator {
  public:
   explicit VertexSeparator(const PieceSurface& surface) : surface_(surface) {
@@ -38,11 +38,11 @@ class VertexSeparator {
         corner += count;
       }
     }
-    leader_.resize(corner);
-    std::iota(leader_.begin(), leader_.end(), 0u);
+    root_.resize(corner);
+    std::iota(root_.begin(), root_.end(), 0u);
   }
 
-  /// Returns false if an edge is not passed as often one way as the other.
+  /// Returns false if an edge does not have equal numbers of faces in both directions.
   bool run() {
     std::sort(edges_.begin(), edges_.end(), [](const HalfEdge& a, const HalfEdge& b) {
       return std::pair(point_pair(a.from, a.to), a.corner) <
@@ -51,25 +51,25 @@ class VertexSeparator {
     for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
       const PointPair edge = point_pair(edges_[begin].from, edges_[begin].to);
       while (end < edges_.size() && point_pair(edges_[end].from, edges_[end].to) == edge) ++end;
-      if (!pair_up(std::span(edges_).subspan(begin, end - begin))) return false;
+      if (!pair_faces(std::span(edges_).subspan(begin, end - begin))) return false;
     }
     return true;
   }
 
-  /// The first corner of those that have their vertex in common with a corner.
-  std::uint32_t leader(std::uint32_t corner) {
-    while (leader_[corner] != corner) corner = leader_[corner] = leader_[leader_[corner]];
+  /// Returns the first of the corners that share the vertex of a corner.
+  std::uint32_t root(std::uint32_t corner) {
+    while (root_[corner] != corner) corner = root_[corner] = root_[root_[corner]];
     return corner;
   }
 
-  /// The pairs at edges that more than two faces share.
+  /// Returns the pairs at edges of more than two faces.
   const std::vector<TouchingPair>& touching() const { return touching_; }
 
  private:
   void join(std::uint32_t a, std::uint32_t b) {
-    a = leader(a);
-    b = leader(b);
-    leader_[std::max(a, b)] = std::min(a, b);
+    a = root(a);
+    b = root(b);
+    root_[std::max(a, b)] = std::min(a, b);
   }
 
   void join(const HalfEdge& a, const HalfEdge& b) {
@@ -78,7 +78,7 @@ class VertexSeparator {
   }
 
   /// Pairs the faces at an edge that have solid between them.
-  bool pair_up(std::span<const HalfEdge> around) {
+  bool pair_faces(std::span<const HalfEdge> around) {
     const auto is_forward = [](const HalfEdge& edge) { return edge.from < edge.to; };
     const auto forward =
         static_cast<std::size_t>(std::count_if(around.begin(), around.end(), is_forward));
@@ -97,30 +97,30 @@ class VertexSeparator {
       const Vec3 inward = is_forward(edge) ? normal.cross(along) : along.cross(normal);
       order.emplace_back(std::atan2(y.dot(inward), x.dot(inward)), &edge);
     }
-    // Solid is behind a forward face, and ahead of a face the other way.
+    // Solid is at smaller angles than a forward face, and at larger angles than a backward face.
     std::stable_sort(order.begin(), order.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<const HalfEdge*> left;
-    for (const auto& [angle, edge] : order) left.push_back(edge);
-    for (std::uint32_t number = 0; !left.empty(); ++number) {
+    std::vector<const HalfEdge*> unpaired;
+    for (const auto& [angle, edge] : order) unpaired.push_back(edge);
+    for (std::uint32_t number = 0; !unpaired.empty(); ++number) {
       std::size_t i = 0;
-      while (is_forward(*left[i]) || !is_forward(*left[(i + 1) % left.size()])) ++i;
-      const std::size_t next = (i + 1) % left.size();
-      join(*left[i], *left[next]);
+      while (is_forward(*unpaired[i]) || !is_forward(*unpaired[(i + 1) % unpaired.size()])) ++i;
+      const std::size_t next = (i + 1) % unpaired.size();
+      join(*unpaired[i], *unpaired[next]);
       touching_.push_back({first,
                            second,
-                           {left[i]->corner, left[next]->corner},
+                           {unpaired[i]->corner, unpaired[next]->corner},
                            number,
                            static_cast<std::uint32_t>(forward)});
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+      unpaired.erase(unpaired.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+      unpaired.erase(unpaired.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
     }
     return true;
   }
 
   const PieceSurface& surface_;
   std::vector<HalfEdge> edges_;
-  std::vector<std::uint32_t> leader_;
+  std::vector<std::uint32_t> root_;
   std::vector<TouchingPair> touching_;
 };
 
@@ -131,7 +131,7 @@ std::optional<OuterSurface> assemble(const PieceSurface& surface) {
   if (!separator.run()) return std::nullopt;
   OuterSurface result;
   PolygonMesh& mesh = result.mesh;
-  std::vector<std::uint32_t> vertex_of;  // by corner; a leader comes before those that it leads
+  std::vector<std::uint32_t> vertex_of;  // by corner; a root precedes the others of its set
   for (const PieceSurface::Face& face : surface.faces) {
     if (face.contours.empty()) continue;
     mesh.faces.push_back({face.plane, face.id, static_cast<std::uint32_t>(mesh.contours.size()),
@@ -142,12 +142,12 @@ std::optional<OuterSurface> assemble(const PieceSurface& surface) {
                                static_cast<std::uint32_t>(contour.size())});
       for (const PieceSurface::Corner& corner : contour) {
         const auto number = static_cast<std::uint32_t>(mesh.corners.size());
-        const std::uint32_t leader = separator.leader(number);
-        if (leader == number) {
+        const std::uint32_t root = separator.root(number);
+        if (root == number) {
           vertex_of.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
           mesh.vertices.push_back(surface.points[corner.point]);
         } else {
-          vertex_of.push_back(vertex_of[leader]);
+          vertex_of.push_back(vertex_of[root]);
         }
         mesh.corners.push_back(vertex_of[number]);
         mesh.corner_normals.push_back(corner.normal);
@@ -163,7 +163,7 @@ bool divide_touching_edges(PieceSurface& surface) {
   VertexSeparator separator(surface);
   if (!separator.run()) return false;
   if (separator.touching().empty()) return true;
-  std::vector<std::uint32_t> divided_at;  // by the corner where the edge starts
+  std::vector<std::uint32_t> divided_at;  // new point of the edge that starts at each corner
   for (const PieceSurface::Face& face : surface.faces) {
     for (const PieceSurface::Contour& contour : face.contours)
       divided_at.resize(divided_at.size() + contour.size(), kNone);

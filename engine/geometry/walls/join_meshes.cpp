@@ -1,3 +1,4 @@
+// The first steps of outer_surface(): puts all faces on common points and finds walls.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,7 +9,7 @@
 namespace sunder {
 namespace {
 
-/// Numbers for points such that points within a tolerance of each other have the same number.
+/// Assigns numbers to points; a point within the tolerance of a known point gets its number.
 class PointJoiner {
  public:
   explicit PointJoiner(double tolerance_m) : tolerance_m_(tolerance_m) {}
@@ -37,7 +38,7 @@ class PointJoiner {
  private:
   using Cell = std::array<std::int64_t, 3>;
 
-  /// Cells are larger than the tolerance, so that near points lie in the same or in adjacent cells.
+  /// Returns a cell larger than the tolerance: points to join lie in the same or in adjacent cells.
   Cell cell_of(const Vec3& point) const {
     const Vec3 cell = (point / (2 * tolerance_m_)).array().floor();
     return {std::int64_t(cell.x()), std::int64_t(cell.y()), std::int64_t(cell.z())};
@@ -87,7 +88,7 @@ bool overlap(const Box& a, const Box& b, double tolerance_m) {
 }  // namespace
 
 void clean_contour(PieceSurface::Contour& contour) {
-  std::size_t kept = 0;  // corners of the contour that are kept so far
+  std::size_t kept = 0;  // number of corners kept so far
   for (std::size_t i = 0; i < contour.size(); ++i) {
     contour[kept++] = contour[i];
     for (;;) {
@@ -100,7 +101,7 @@ void clean_contour(PieceSurface::Contour& contour) {
       }
     }
   }
-  // The same where the end of the contour meets its start.
+  // Removes repeated corners and spikes across the end of the contour.
   std::size_t first = 0;
   while (kept - first >= 2) {
     const std::uint32_t last = contour[kept - 1].point;

@@ -11,13 +11,14 @@
 namespace sunder {
 namespace {
 
-/// Distances between points of two meshes that are meant to be one point, over the largest
-/// coordinate; a larger one is tried where a smaller one does not lead to a closed surface.
+/// Distances up to which points of two meshes are joined, over the largest coordinate, in the order
+/// in which they are tried until the surface is closed.
 constexpr double kTolerances[] = {4e-12, 4e-13, 4e-14, 4e-11, 4e-10};
-constexpr double kVolumeError = 1e-12;
+/// Greatest relative error of the volume of a result.
+constexpr double kMaxVolumeError = 1e-12;
 
-std::optional<OuterSurface> without_walls(std::span<const PolygonMesh* const> meshes,
-                                          double tolerance_m) {
+std::optional<OuterSurface> merge_meshes(std::span<const PolygonMesh* const> meshes,
+                                         double tolerance_m) {
   PieceSurface surface = join_meshes(meshes, tolerance_m);
   const std::vector<WallPlane> planes = find_wall_planes(surface, tolerance_m);
   if (!split_edges(surface, planes, tolerance_m)) return std::nullopt;
@@ -28,65 +29,63 @@ std::optional<OuterSurface> without_walls(std::span<const PolygonMesh* const> me
   return assemble(surface);
 }
 
-/// For each vertex, the first one in the same place.
-std::vector<std::uint32_t> places_of(const PolygonMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.vertices.size()), place(mesh.vertices.size());
+/// Returns for each vertex the first vertex at the same position.
+std::vector<std::uint32_t> first_vertices_at_positions(const PolygonMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.vertices.size()), first_at(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto less = [&](std::uint32_t a, std::uint32_t b) {
+  const auto is_less = [&](std::uint32_t a, std::uint32_t b) {
     const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b];
     return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
   };
-  std::stable_sort(order.begin(), order.end(), less);
+  std::stable_sort(order.begin(), order.end(), is_less);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_new = i == 0 || less(order[i - 1], order[i]);
-    place[order[i]] = is_new ? order[i] : place[order[i - 1]];
+    const bool is_new = i == 0 || is_less(order[i - 1], order[i]);
+    first_at[order[i]] = is_new ? order[i] : first_at[order[i - 1]];
   }
-  return place;
+  return first_at;
 }
 
-/// Removes pairs of triangles that have the same corners, one the other way round: there is nothing
-/// between them.
+/// Removes pairs of triangles with the same corners and opposite orientation.
 void cancel_opposite(std::vector<PieceSurface::Face>& triangles) {
   struct Corners {
     std::array<std::uint32_t, 3> points;  ///< Ascending.
     std::size_t triangle = 0;
-    bool is_turned = false;
+    bool is_reversed = false;
   };
   std::vector<Corners> all;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const PieceSurface::Contour& contour = triangles[t].contours[0];
     std::array<std::uint32_t, 3> points = {contour[0].point, contour[1].point, contour[2].point};
     std::ranges::rotate(points, std::ranges::min_element(points));
-    const bool is_turned = points[1] > points[2];
-    if (is_turned) std::swap(points[1], points[2]);
-    all.push_back({points, t, is_turned});
+    const bool is_reversed = points[1] > points[2];
+    if (is_reversed) std::swap(points[1], points[2]);
+    all.push_back({points, t, is_reversed});
   }
   std::ranges::stable_sort(all, {}, &Corners::points);
-  std::vector<std::uint8_t> is_gone(triangles.size(), 0);
-  std::vector<const Corners*> open;  // of one place, all the same way round
+  std::vector<std::uint8_t> is_removed(triangles.size(), 0);
+  std::vector<const Corners*> unmatched;  // of the same corners and orientation
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i > 0 && all[i].points != all[i - 1].points) open.clear();
-    if (!open.empty() && open.back()->is_turned != all[i].is_turned) {
-      is_gone[all[i].triangle] = is_gone[open.back()->triangle] = 1;
-      open.pop_back();
+    if (i > 0 && all[i].points != all[i - 1].points) unmatched.clear();
+    if (!unmatched.empty() && unmatched.back()->is_reversed != all[i].is_reversed) {
+      is_removed[all[i].triangle] = is_removed[unmatched.back()->triangle] = 1;
+      unmatched.pop_back();
     } else {
-      open.push_back(&all[i]);
+      unmatched.push_back(&all[i]);
     }
   }
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (is_gone[t]) continue;
+    if (is_removed[t]) continue;
     if (kept != t) triangles[kept] = std::move(triangles[t]);
     ++kept;
   }
   triangles.resize(kept);
 }
 
-/// The triangles of a surface, on common points; those whose corners are in less than three places
-/// are left out.
-PieceSurface triangles_on_places(const OuterSurface& outer) {
+/// Returns the triangles of a surface on common points, without degenerate ones.
+PieceSurface triangles_on_common_points(const OuterSurface& outer) {
   const PolygonMesh& mesh = outer.mesh;
-  const std::vector<std::uint32_t> place = places_of(mesh);
+  const std::vector<std::uint32_t> first_at = first_vertices_at_positions(mesh);
   PieceSurface surface;
   surface.points = mesh.vertices;
   surface.has_uvs = !mesh.corner_uvs.empty();
@@ -96,7 +95,7 @@ PieceSurface triangles_on_places(const OuterSurface& outer) {
       PieceSurface::Contour contour;
       for (const std::uint32_t c : corners) {
         const Vec2f uv = surface.has_uvs ? mesh.corner_uvs[c] : Vec2f(Vec2f::Zero());
-        contour.push_back({place[mesh.corners[c]], mesh.corner_normals[c], uv});
+        contour.push_back({first_at[mesh.corners[c]], mesh.corner_normals[c], uv});
       }
       clean_contour(contour);
       if (contour.empty()) continue;
@@ -107,8 +106,8 @@ PieceSurface triangles_on_places(const OuterSurface& outer) {
   return surface;
 }
 
-/// Returns true if more than two faces share an edge.
-bool touches_itself(const PieceSurface& surface) {
+/// Returns true if an edge has more than two faces.
+bool has_non_manifold_edge(const PieceSurface& surface) {
   std::vector<PointPair> edges;
   for (const PieceSurface::Face& face : surface.faces) {
     for (const PieceSurface::Contour& contour : face.contours) {
@@ -137,19 +136,19 @@ std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> me
     for (const Vec3& v : mesh->vertices) reach = std::max(reach, v.cwiseAbs().maxCoeff());
   }
   for (const double tolerance : kTolerances) {
-    std::optional<OuterSurface> result = without_walls(meshes, tolerance * reach);
+    std::optional<OuterSurface> result = merge_meshes(meshes, tolerance * reach);
     if (!result || open_edges(result->mesh) > 0) continue;
     const double error = mass_properties(result->mesh).volume_m3 - volume_m3;
-    if (std::abs(error) <= kVolumeError * std::abs(volume_m3)) return result;
+    if (std::abs(error) <= kMaxVolumeError * std::abs(volume_m3)) return result;
   }
   return std::nullopt;
 }
 
-void separate_triangles(OuterSurface& outer) {
-  constexpr int kRounds = 4;  // triangles of divided triangles have new edges
-  for (int round = 0; round < kRounds; ++round) {
-    PieceSurface surface = triangles_on_places(outer);
-    if (!touches_itself(surface)) return;
+void make_triangles_manifold(OuterSurface& outer) {
+  constexpr int kMaxRounds = 4;  // divided triangles have new edges, which may coincide
+  for (int round = 0; round < kMaxRounds; ++round) {
+    PieceSurface surface = triangles_on_common_points(outer);
+    if (!has_non_manifold_edge(surface)) return;
     cancel_opposite(surface.faces);
     if (surface.faces.empty() || !divide_touching_edges(surface)) return;
     std::optional<OuterSurface> separated = assemble(surface);
@@ -158,7 +157,7 @@ void separate_triangles(OuterSurface& outer) {
   }
 }
 
-OuterSurface side_by_side(std::span<const PolygonMesh* const> meshes) {
+OuterSurface concatenate_meshes(std::span<const PolygonMesh* const> meshes) {
   OuterSurface all;
   PolygonMesh& to = all.mesh;
   const bool has_uvs = std::ranges::any_of(

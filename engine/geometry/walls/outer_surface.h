@@ -1,7 +1,8 @@
-// The outer surface of solids that share walls: faces that two of them have in common are removed.
+// The outer surface of solids that touch face to face: the common parts of their faces (walls) are
+// removed.
 //
-// Read first: outer_surface(). A face of one solid that covers part of a face of another is cut, so
-// that every edge of the result lies in exactly two faces.
+// Begin with outer_surface(). A face that partly covers a face of another solid is cut, so that
+// every edge of the result belongs to exactly two faces.
 #pragma once
 
 #include <cstddef>
@@ -14,26 +15,25 @@
 
 namespace sunder {
 
-/// Closed surfaces without walls between them.
+/// The merged surface of several closed meshes.
 struct OuterSurface {
-  PolygonMesh mesh;                 ///< Caps need not follow the other faces.
-  std::vector<std::uint32_t> from;  ///< For each face, the number of the mesh that it is of.
+  PolygonMesh mesh;                 ///< Caps need not come after the other faces.
+  std::vector<std::uint32_t> from;  ///< Index of the input mesh of each face.
 };
 
-/// Removes what faces with opposite names of different meshes have in common. Each directed edge of
-/// the result has its opposite exactly once, by the numbers of its vertices. Where the surface
-/// touches itself, vertices in one place have several numbers, and an edge is divided in another
-/// place for each two faces. The
-/// enclosed volume is the sum of the volumes of the meshes within 1e-12 of it. Returns none where
-/// that cannot be reached.
+/// Returns the surface of several meshes without the common parts of faces that have opposite ids
+/// and belong to different meshes. Each directed edge has its opposite exactly once, by the indices
+/// of its vertices. Where the surface touches itself, there are several vertices at one position,
+/// and a common edge is divided at a different point for each pair of faces. The volume is the sum
+/// of the meshes' volumes within 1e-12 of it. Returns none if no such surface is found.
 std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> meshes);
 
-/// Several closed meshes as one, walls and all.
-OuterSurface side_by_side(std::span<const PolygonMesh* const> meshes);
+/// Returns several closed meshes as one, with the walls between them.
+OuterSurface concatenate_meshes(std::span<const PolygonMesh* const> meshes);
 
-/// Changes a surface so that, once its faces are triangles, every edge lies in two of them by the
-/// places of its ends, as programs see it that join vertices in one place: edges that more than two
-/// share are divided, in another place for each two. What touches nowhere stays as it is.
-void separate_triangles(OuterSurface& outer);
+/// Triangulates a surface so that every edge belongs to two triangles also after vertices at equal
+/// positions are welded: edges of more than two triangles are divided, at a different point for
+/// each pair. A surface that does not touch itself is left unchanged.
+void make_triangles_manifold(OuterSurface& outer);
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// The faces of several closed meshes on common points: the working form of outer_surface().
+// The faces of several closed meshes on common points, and the steps of outer_surface().
 #pragma once
 
 #include <array>
@@ -14,14 +14,15 @@
 
 namespace sunder {
 
-/// Two points, the smaller number first.
+/// An undirected edge: two point numbers, the smaller first.
 using PointPair = std::array<std::uint32_t, 2>;
 
+/// Returns the undirected edge of two points.
 inline PointPair point_pair(std::uint32_t a, std::uint32_t b) {
   return a < b ? PointPair{a, b} : PointPair{b, a};
 }
 
-/// Faces whose corners are numbers of points that all meshes share.
+/// Faces whose corners refer to points that all meshes share.
 struct PieceSurface {
   struct Corner {
     std::uint32_t point = 0;
@@ -34,7 +35,7 @@ struct PieceSurface {
     PlaneId id;
     FaceKind kind = FaceKind::kSurface;
     std::uint32_t mark = 0;
-    std::uint32_t mesh = 0;  ///< Number of the mesh that the face is of.
+    std::uint32_t mesh = 0;  ///< Index of the face's mesh.
     std::vector<Contour> contours;
   };
 
@@ -43,37 +44,36 @@ struct PieceSurface {
   bool has_uvs = false;  ///< True if any of the meshes has texture coordinates.
 };
 
-/// Faces of different meshes in one plane, some of which face each other.
+/// A plane with faces of different meshes on both of its sides.
 struct WallPlane {
-  Vec3 normal = Vec3::UnitZ();       ///< Of the faces with an even name.
-  std::vector<std::uint32_t> faces;  ///< Numbers of PieceSurface::faces, ascending.
+  Vec3 normal = Vec3::UnitZ();       ///< Normal of the faces with an even id.
+  std::vector<std::uint32_t> faces;  ///< Indices into PieceSurface::faces, ascending.
 };
 
-/// Joins the vertices of all meshes that are within `tolerance_m` of each other.
+/// Returns the faces of all meshes, with vertices within `tolerance_m` of each other joined.
 PieceSurface join_meshes(std::span<const PolygonMesh* const> meshes, double tolerance_m);
 
-/// The planes in which faces of two meshes may cover each other: their names are opposite and their
-/// bounding boxes overlap.
+/// Returns the planes in which faces of two meshes have opposite ids and overlapping boxes.
 std::vector<WallPlane> find_wall_planes(const PieceSurface& surface, double tolerance_m);
 
-/// Splits edges of faces in wall planes where points of the same plane lie on them and where they
-/// cross, in all faces that have these edges. Returns false if the rounds of splitting find no end.
+/// Splits edges of faces in wall planes where points of the plane lie on them and where they cross,
+/// in all faces that have these edges. Returns false if too many rounds are needed.
 bool split_edges(PieceSurface& surface, std::span<const WallPlane> planes, double tolerance_m);
 
-/// Removes what faces of a plane with opposite names have in common. Edges must have been split.
-/// Returns false if the outlines of what is left do not close.
+/// Removes the common parts of faces of a plane with opposite ids. Edges must have been split.
+/// Returns false if the outline of a remaining part is not closed.
 bool remove_common(PieceSurface& surface, const WallPlane& plane);
 
-/// Divides edges that more than two faces share: each pair of faces with solid between them has a
-/// point of its own there, in a place of its own, so that no two pairs have an edge in common.
-/// Returns false if an edge is not passed as often one way as the other.
+/// Divides edges of more than two faces: for each pair of faces with solid between them at a
+/// different point, so that no two pairs have an edge in common. Returns false if an edge has
+/// unequal numbers of faces in its two directions.
 bool divide_touching_edges(PieceSurface& surface);
 
-/// A mesh of the faces. Corners at one point that no chain of faces connects become different
-/// vertices. Returns none if an edge is not passed as often one way as the other.
+/// Returns a mesh of the faces. Corners at one point that no chain of faces connects become
+/// different vertices. Returns none if an edge has unequal numbers of faces in its two directions.
 std::optional<OuterSurface> assemble(const PieceSurface& surface);
 
-/// Removes repeated corners and parts of a contour that go to a point and straight back.
+/// Removes repeated corners and spikes; a contour of fewer than three corners becomes empty.
 void clean_contour(PieceSurface::Contour& contour);
 
 }  // namespace sunder

@@ -1,6 +1,6 @@
-// In a plane, each edge has on either side the faces that cover that side. Of m faces with an even
-// name and n with an odd name that cover one place, |m - n| remain. Where a face remains on one
-// side of an edge and not on the other, the edge bounds what is left of that face.
+// Removal of the common parts of faces in one plane. For each side of an edge, the faces that cover
+// that side are known. Of m faces with an even id and n with an odd id that cover a point, |m - n|
+// remain there. An edge where a face remains on one side only is part of the outline of that face.
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +11,9 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The number of times that a face's contours pass an edge from its first point to its second, less
-/// the number of times that they pass it the other way.
-struct Passes {
+/// The number of times that a face's contours contain an edge from its first point to its second,
+/// less the number of times that they contain it in the other direction.
+struct EdgeUse {
   std::uint32_t face = 0;  ///< Index of WallPlane::faces.
   int count = 0;
 };
@@ -22,19 +22,21 @@ struct DirectedEdge {
   std::uint32_t from = 0, to = 0;
 };
 
-/// Traces edges that have the inside to their left to contours, which touch each other in points at
-/// most.
+/// Connects directed edges, with the inside on their left, to contours that do not cross.
 class ContourTracer {
  public:
-  ContourTracer(std::vector<DirectedEdge> edges, const std::map<std::uint32_t, Vec2>& flat,
-                bool mirrored)
-      : edges_(std::move(edges)), flat_(flat), mirrored_(mirrored), used_(edges_.size(), 0) {
+  ContourTracer(std::vector<DirectedEdge> edges, const std::map<std::uint32_t, Vec2>& points_2d,
+                bool is_mirrored)
+      : edges_(std::move(edges)),
+        points_2d_(points_2d),
+        is_mirrored_(is_mirrored),
+        used_(edges_.size(), 0) {
     std::sort(edges_.begin(), edges_.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
       return std::pair(a.from, a.to) < std::pair(b.from, b.to);
     });
   }
 
-  /// Contours of points, the largest first; empty if one of them does not close.
+  /// Returns contours as sequences of points, by descending area; none if one is not closed.
   std::vector<std::vector<std::uint32_t>> run() {
     std::vector<std::pair<double, std::vector<std::uint32_t>>> found;
     for (std::size_t start = 0; start < edges_.size(); ++start) {
@@ -43,7 +45,7 @@ class ContourTracer {
       for (std::size_t e = start; !used_[e];) {
         used_[e] = 1;
         contour.push_back(edges_[e].from);
-        if (edges_[e].to == edges_[start].from && !has_other_way(e, start)) break;
+        if (edges_[e].to == edges_[start].from && !continues_elsewhere(e, start)) break;
         const std::size_t next = next_of(e);
         if (next == edges_.size()) return {};
         e = next;
@@ -59,19 +61,20 @@ class ContourTracer {
 
  private:
   Vec2 at(std::uint32_t point) const {
-    const Vec2& p = flat_.at(point);
-    return mirrored_ ? Vec2(-p.x(), p.y()) : p;
+    const Vec2& p = points_2d_.at(point);
+    return is_mirrored_ ? Vec2(-p.x(), p.y()) : p;
   }
 
-  /// True if a contour that comes back to its start goes on from there by another edge first.
-  bool has_other_way(std::size_t e, std::size_t start) {
+  /// Returns true if a contour that has returned to its start by edge `e` continues with another
+  /// edge than `start`.
+  bool continues_elsewhere(std::size_t e, std::size_t start) {
     used_[start] = 0;
     const std::size_t next = next_of(e);
     used_[start] = 1;
     return next != start;
   }
 
-  /// The unused edge that is met first clockwise from the way back; the number of edges if none.
+  /// Returns the unused edge first clockwise from the reverse of `e`; the number of edges if none.
   std::size_t next_of(std::size_t e) const {
     const Vec2 back = at(edges_[e].from) - at(edges_[e].to);
     auto it = std::lower_bound(
@@ -101,24 +104,28 @@ class ContourTracer {
   }
 
   std::vector<DirectedEdge> edges_;
-  const std::map<std::uint32_t, Vec2>& flat_;
-  const bool mirrored_;
+  const std::map<std::uint32_t, Vec2>& points_2d_;
+  const bool is_mirrored_;
   std::vector<std::uint8_t> used_;
 };
 
+/// Finds the remaining parts of the faces in one plane.
 class CommonRemover {
  public:
   CommonRemover(PieceSurface& surface, const WallPlane& plane)
-      : surface_(surface), plane_(plane), left_(plane.faces.size()), boxes_(plane.faces.size()) {
+      : surface_(surface),
+        plane_(plane),
+        outlines_(plane.faces.size()),
+        boxes_(plane.faces.size()) {
     const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
     for (std::uint32_t i = 0; i < plane.faces.size(); ++i) {
       for (const PieceSurface::Contour& contour : face(i).contours) {
         for (std::size_t c = 0; c < contour.size(); ++c) {
           const std::uint32_t point = contour[c].point;
           const std::uint32_t next = contour[c + 1 < contour.size() ? c + 1 : 0].point;
-          const Vec2 flat(x.dot(surface.points[point]), y.dot(surface.points[point]));
-          flat_[point] = flat;
-          boxes_[i].extend(flat);
+          const Vec2 point_2d(x.dot(surface.points[point]), y.dot(surface.points[point]));
+          points_2d_[point] = point_2d;
+          boxes_[i].extend(point_2d);
           count(point, next, i);
         }
       }
@@ -126,7 +133,7 @@ class CommonRemover {
   }
 
   bool run() {
-    for (const auto& [edge, passes] : edges_) divide(edge, passes);
+    for (const auto& [edge, uses] : edges_) add_outline_edges(edge, uses);
     for (std::uint32_t i = 0; i < plane_.faces.size(); ++i) {
       if (!replace(i)) return false;
     }
@@ -139,18 +146,18 @@ class CommonRemover {
 
   void count(std::uint32_t from, std::uint32_t to, std::uint32_t i) {
     const PointPair edge = point_pair(from, to);
-    std::vector<Passes>& passes = edges_[edge];
-    if (passes.empty() || passes.back().face != i) passes.push_back({i, 0});
-    passes.back().count += from == edge[0] ? 1 : -1;
+    std::vector<EdgeUse>& uses = edges_[edge];
+    if (uses.empty() || uses.back().face != i) uses.push_back({i, 0});
+    uses.back().count += from == edge[0] ? 1 : -1;
   }
 
-  /// Returns true if a face covers a point. The point must be on none of the face's edges.
+  /// Returns true if a face covers a point, which must not be on an edge of the face.
   bool covers(std::uint32_t i, const Vec2& point) const {
     bool inside = false;
     for (const PieceSurface::Contour& contour : face(i).contours) {
       for (std::size_t c = 0; c < contour.size(); ++c) {
-        const Vec2& a = flat_.at(contour[c].point);
-        const Vec2& b = flat_.at(contour[c + 1 < contour.size() ? c + 1 : 0].point);
+        const Vec2& a = points_2d_.at(contour[c].point);
+        const Vec2& b = points_2d_.at(contour[c + 1 < contour.size() ? c + 1 : 0].point);
         if ((a.y() > point.y()) == (b.y() > point.y())) continue;
         const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
         if (x > point.x()) inside = !inside;
@@ -159,17 +166,17 @@ class CommonRemover {
     return inside;
   }
 
-  /// The faces that cover either side of an edge, left and right of the way to its second point as
-  /// seen from where the even faces are.
+  /// Returns the faces that cover the left and the right side of an edge, directed from its first
+  /// to its second point and seen from the side to which the even faces' normals point.
   std::array<std::vector<std::uint32_t>, 2> covering(const PointPair& edge,
-                                                     const std::vector<Passes>& passes) const {
+                                                     const std::vector<EdgeUse>& uses) const {
     std::array<std::vector<std::uint32_t>, 2> sides;
-    const Vec2 middle = 0.5 * (flat_.at(edge[0]) + flat_.at(edge[1]));
-    auto pass = passes.begin();
+    const Vec2 middle = 0.5 * (points_2d_.at(edge[0]) + points_2d_.at(edge[1]));
+    auto use = uses.begin();
     for (std::uint32_t i = 0; i < plane_.faces.size(); ++i) {
-      if (pass != passes.end() && pass->face == i) {
-        const int count = is_odd(i) ? -pass->count : pass->count;
-        ++pass;
+      if (use != uses.end() && use->face == i) {
+        const int count = is_odd(i) ? -use->count : use->count;
+        ++use;
         if (count != 0) {
           sides[count > 0 ? 0 : 1].push_back(i);
           continue;
@@ -184,7 +191,7 @@ class CommonRemover {
     return sides;
   }
 
-  /// Returns the faces that are left of those that cover a place.
+  /// Returns the faces that remain of those that cover a point.
   std::vector<std::uint32_t> remaining(const std::vector<std::uint32_t>& covering) const {
     std::array<std::vector<std::uint32_t>, 2> by_name;
     for (const std::uint32_t i : covering) by_name[is_odd(i) ? 1 : 0].push_back(i);
@@ -194,40 +201,44 @@ class CommonRemover {
     return left;
   }
 
-  void divide(const PointPair& edge, const std::vector<Passes>& passes) {
-    const auto sides = covering(edge, passes);
+  /// Adds an edge to the outlines of the faces that remain on one side of it only.
+  void add_outline_edges(const PointPair& edge, const std::vector<EdgeUse>& uses) {
+    const auto sides = covering(edge, uses);
     const std::vector<std::uint32_t> on_left = remaining(sides[0]), on_right = remaining(sides[1]);
     const auto add = [&](const std::vector<std::uint32_t>& here,
                          const std::vector<std::uint32_t>& there, bool forward) {
       for (const std::uint32_t i : here) {
         if (std::find(there.begin(), there.end(), i) != there.end()) continue;
         const bool along = forward != is_odd(i);
-        left_[i].push_back(along ? DirectedEdge{edge[0], edge[1]} : DirectedEdge{edge[1], edge[0]});
+        outlines_[i].push_back(along ? DirectedEdge{edge[0], edge[1]}
+                                     : DirectedEdge{edge[1], edge[0]});
       }
     };
     add(on_left, on_right, true);
     add(on_right, on_left, false);
   }
 
-  bool is_whole(std::uint32_t i) const {
+  /// Returns true if the remaining part of a face is the whole face.
+  bool is_unchanged(std::uint32_t i) const {
     std::vector<PointPair> old_edges, new_edges;
     for (const PieceSurface::Contour& contour : face(i).contours) {
       for (std::size_t c = 0; c < contour.size(); ++c) {
         old_edges.push_back({contour[c].point, contour[c + 1 < contour.size() ? c + 1 : 0].point});
       }
     }
-    for (const DirectedEdge& edge : left_[i]) new_edges.push_back({edge.from, edge.to});
+    for (const DirectedEdge& edge : outlines_[i]) new_edges.push_back({edge.from, edge.to});
     std::sort(old_edges.begin(), old_edges.end());
     std::sort(new_edges.begin(), new_edges.end());
     return old_edges == new_edges;
   }
 
+  /// Replaces the contours of a face by its outline. Returns false if that is not closed.
   bool replace(std::uint32_t i) {
-    if (is_whole(i)) return true;
+    if (is_unchanged(i)) return true;
     PieceSurface::Face& of = face(i);
     std::vector<PieceSurface::Contour> contours;
-    if (!left_[i].empty()) {
-      const auto traced = ContourTracer(left_[i], flat_, is_odd(i)).run();
+    if (!outlines_[i].empty()) {
+      const auto traced = ContourTracer(outlines_[i], points_2d_, is_odd(i)).run();
       if (traced.empty()) return false;
       for (const std::vector<std::uint32_t>& points : traced) {
         contours.emplace_back();
@@ -254,11 +265,11 @@ class CommonRemover {
         if (a == nullptr) a = &known;
       }
     }
-    const Vec2& origin = flat_.at(a->point);
+    const Vec2& origin = points_2d_.at(a->point);
     double farthest = 0, largest = 0;
     for (const PieceSurface::Contour& contour : of.contours) {
       for (const PieceSurface::Corner& known : contour) {
-        const double distance = (flat_.at(known.point) - origin).norm();
+        const double distance = (points_2d_.at(known.point) - origin).norm();
         if (distance > farthest) {
           farthest = distance;
           b = &known;
@@ -268,7 +279,7 @@ class CommonRemover {
     for (const PieceSurface::Contour& contour : of.contours) {
       for (const PieceSurface::Corner& known : contour) {
         const double area =
-            std::abs(cross(flat_.at(b->point) - origin, flat_.at(known.point) - origin));
+            std::abs(cross(points_2d_.at(b->point) - origin, points_2d_.at(known.point) - origin));
         if (area > largest) {
           largest = area;
           c = &known;
@@ -276,8 +287,8 @@ class CommonRemover {
       }
     }
     if (c == nullptr) return {point, a->normal, a->uv};
-    const Vec2 ab = flat_.at(b->point) - origin, ac = flat_.at(c->point) - origin;
-    const Vec2 to = flat_.at(point) - origin;
+    const Vec2 ab = points_2d_.at(b->point) - origin, ac = points_2d_.at(c->point) - origin;
+    const Vec2 to = points_2d_.at(point) - origin;
     const auto s = static_cast<float>(cross(to, ac) / cross(ab, ac));
     const auto t = static_cast<float>(cross(ab, to) / cross(ab, ac));
     const Vec3f normal = (1 - s - t) * a->normal + s * b->normal + t * c->normal;
@@ -288,10 +299,10 @@ class CommonRemover {
 
   PieceSurface& surface_;
   const WallPlane& plane_;
-  std::map<std::uint32_t, Vec2> flat_;  ///< Points in the plane.
-  std::map<PointPair, std::vector<Passes>> edges_;
-  std::vector<std::vector<DirectedEdge>> left_;  ///< Outline of what is left, by face.
-  std::vector<Eigen::AlignedBox2d> boxes_;       ///< By face.
+  std::map<std::uint32_t, Vec2> points_2d_;  ///< Coordinates of points in the plane.
+  std::map<PointPair, std::vector<EdgeUse>> edges_;
+  std::vector<std::vector<DirectedEdge>> outlines_;  ///< Remaining outline of each face.
+  std::vector<Eigen::AlignedBox2d> boxes_;           ///< Bounding box of each face.
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Splitting of edges in the planes of walls, a step of outer_surface().
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,14 +9,14 @@
 namespace sunder {
 namespace {
 
-/// Rounds after which edges are given up: an edge that is split bends by the tolerance at most, so
-/// one or two rounds are the rule.
-constexpr int kMostRounds = 12;
+/// Greatest number of rounds of splitting. One or two rounds usually suffice, since the parts of a
+/// split edge deviate from it by at most the tolerance.
+constexpr int kMaxSplitRounds = 12;
 
-/// Points to be put into edges.
+/// Points to insert into edges.
 using Splits = std::map<PointPair, std::set<std::uint32_t>>;
 
-/// The edges and points of the faces in one plane.
+/// The different edges and points of the faces in one plane.
 struct PlaneEdges {
   std::vector<PointPair> edges;
   std::vector<std::uint32_t> points;
@@ -41,6 +42,7 @@ PlaneEdges edges_in(const PieceSurface& surface, const WallPlane& plane) {
   return result;
 }
 
+/// Finds the points at which to split edges, plane by plane, and then splits the edges.
 class EdgeSplitter {
  public:
   EdgeSplitter(PieceSurface& surface, double tolerance_m)
@@ -54,7 +56,7 @@ class EdgeSplitter {
     find_crossings(in, plane.normal);
   }
 
-  /// Returns false if nothing was to be split.
+  /// Splits the edges. Returns false if there was nothing to split.
   bool apply() {
     if (splits_.empty()) return false;
     for (PieceSurface::Face& face : surface_.faces) {
@@ -68,7 +70,7 @@ class EdgeSplitter {
  private:
   const Vec3& at(std::uint32_t point) const { return surface_.points[point]; }
 
-  /// Along which axis the points of the plane reach farthest.
+  /// Sets the axis along which the points of the plane have the largest extent.
   void choose_axis(const PlaneEdges& in) {
     Box box;
     for (const std::uint32_t point : in.points) box.extend(at(point));
@@ -117,7 +119,7 @@ class EdgeSplitter {
     }
   }
 
-  /// Splits two edges where they cross; edges that have a point in common or on each other do not.
+  /// Splits two edges where they cross in the interior of both.
   void cross(const PointPair& e, const PointPair& g, const Vec3& normal) {
     if (e[0] == g[0] || e[0] == g[1] || e[1] == g[0] || e[1] == g[1]) return;
     const Vec3 along_e = at(e[1]) - at(e[0]), along_g = at(g[1]) - at(g[0]);
@@ -133,7 +135,7 @@ class EdgeSplitter {
     splits_[g].insert(point);
   }
 
-  /// Several edges may cross in one place.
+  /// Returns the known crossing point within the tolerance, or a new one.
   std::uint32_t crossing_at(const Vec3& place) {
     for (const std::uint32_t known : crossings_) {
       if ((at(known) - place).norm() <= tolerance_m_) return known;
@@ -159,7 +161,7 @@ class EdgeSplitter {
     clean_contour(contour);
   }
 
-  /// The order along an edge is the same from either of its ends.
+  /// Appends corners for the points on an edge, in an order that is the same from both ends of it.
   void add_between(const PieceSurface::Corner& a, const PieceSurface::Corner& b,
                    const std::set<std::uint32_t>& points, PieceSurface::Contour& result) const {
     const PointPair edge = point_pair(a.point, b.point);
@@ -184,14 +186,14 @@ class EdgeSplitter {
   const double tolerance_m_;
   int axis_ = 0;
   Splits splits_;
-  std::vector<std::uint32_t> crossings_;  ///< Of the edges of one plane.
+  std::vector<std::uint32_t> crossings_;  ///< Crossing points of the current plane.
 };
 
 }  // namespace
 
 bool split_edges(PieceSurface& surface, std::span<const WallPlane> planes, double tolerance_m) {
   EdgeSplitter splitter(surface, tolerance_m);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxSplitRounds; ++round) {
     for (const WallPlane& plane : planes) splitter.find_splits(plane);
     if (!splitter.apply()) return true;
   }

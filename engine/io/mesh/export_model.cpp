@@ -14,21 +14,20 @@
 namespace sunder {
 namespace {
 
-/// Names with the number's digits filled up, so that they sort.
+/// Returns a name with leading zeros, so that names sort by index.
 std::string part_name(std::size_t index, std::size_t count) {
   const std::string digits = std::to_string(index), most = std::to_string(count - 1);
   return "piece_" + std::string(most.size() - digits.size(), '0') + digits;
 }
 
-/// The number of a face's material in a model. Paints follow two materials for each of the scene's.
+/// Returns the index of a face's material: two per material of the scene, then those from files.
 std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
                           std::uint32_t first_paint) {
   if (face.kind == FaceKind::kInterior) return 2 * material.value + 1;
   return face.mark > 0 ? first_paint + face.mark - 1 : 2 * material.value;
 }
 
-/// The shells of a piece; several where all walls are kept. `is_walled` says if they are kept as
-/// they cannot be removed.
+/// Returns the shells of a piece. Sets `is_walled` to 1 if inner walls could not be removed.
 std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_paint, Walls walls,
                                     std::uint8_t& is_walled) {
   std::vector<std::shared_ptr<const PolygonMesh>> meshes;
@@ -51,8 +50,8 @@ std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_p
   if (walls == Walls::kRemove) {
     std::optional<OuterSurface> outer = outer_surface(pointers);
     is_walled = !outer;
-    if (is_walled) outer = side_by_side(pointers);
-    separate_triangles(*outer);
+    if (is_walled) outer = concatenate_meshes(pointers);
+    make_triangles_manifold(*outer);
     add(std::make_shared<const PolygonMesh>(std::move(outer->mesh)),
         [&](std::size_t f) { return outer->from[f]; });
     return shells;
@@ -66,7 +65,7 @@ std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_p
 }  // namespace
 
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode, std::span<const Paint> paints, Walls walls) {
+                 double explode, std::span<const Appearance> paints, Walls walls) {
   Model model;
   for (const Material& material : materials) {
     model.materials.push_back({material.name, {material.surface.color, nullptr}});
@@ -93,7 +92,7 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
     model.parts[p].shells = shells_of(pieces[p], first_paint, walls, is_walled[p]);
   });
-  model.walled_parts = static_cast<std::size_t>(std::ranges::count(is_walled, 1));
+  model.parts_with_walls = static_cast<std::size_t>(std::ranges::count(is_walled, 1));
   return model;
 }
 

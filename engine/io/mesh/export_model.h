@@ -1,6 +1,6 @@
-// Solids on their way to other programs: closed surfaces with materials, part by part.
+// Export of solids to other programs: closed surfaces with materials, in parts.
 //
-// Read first: make_model(); engine/io/mesh/glb_writer.h and engine/io/mesh/obj_writer.h write it.
+// Begin with make_model(); glb_writer.h and obj_writer.h beside it write the model.
 #pragma once
 
 #include <cstddef>
@@ -16,49 +16,54 @@
 
 namespace sunder {
 
+/// A model to export.
 struct Model {
   struct Material {
     std::string name;
-    Paint look;
+    Appearance look;
   };
-  /// A watertight surface, and what its faces are made of.
+  /// A watertight surface and the materials of its faces.
   struct Shell {
     std::shared_ptr<const PolygonMesh> mesh;
-    std::vector<std::uint32_t> materials;  ///< By face.
+    std::vector<std::uint32_t> materials;  ///< Index into Model::materials of each face.
   };
-  /// What moves as one.
+  /// A piece, which moves as one body.
   struct Part {
     std::string name;
-    Vec3 center = Vec3::Zero();  ///< Of its bounding box, where its shells are.
-    Vec3 offset = Vec3::Zero();  ///< How far it is moved from there.
+    Vec3 center = Vec3::Zero();  ///< Centre of the bounding box of its shells.
+    Vec3 offset = Vec3::Zero();  ///< Displacement of the part from its original position.
     std::vector<Shell> shells;
   };
   std::vector<Material> materials;
   std::vector<Part> parts;
-  std::size_t walled_parts = 0;  ///< Parts whose walls could not be removed, and were kept.
+  std::size_t parts_with_walls = 0;  ///< Number of parts whose inner walls could not be removed.
 };
 
-/// Says if an export keeps the faces between convexes of one piece.
+/// Selects if an export keeps the faces between convexes of one piece.
 enum class Walls : std::uint8_t { kRemove, kKeep };
 
-/// Makes a part of each compound. A part has one shell, its outer surface, walls included where
-/// they cannot be removed; or, where walls are kept, one shell for each convex: its visual mesh, or
-/// itself if it has none.
-/// Parts are moved away from the middle of all by `explode` times their distance from it. Faces are
-/// marked by `paints`, which are materials of their own.
+/// Makes a part of each compound. With Walls::kRemove, a part has one shell, its outer surface;
+/// inner walls that cannot be removed remain. With Walls::kKeep, a part has one shell for each
+/// convex: its visual mesh, or its polyhedron if it has none. Parts are displaced from the centre
+/// of the model by `explode` times their distance from it. `paints` are the appearance of faces by
+/// their mark, and become materials of their own.
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode, std::span<const Paint> paints = {}, Walls walls = Walls::kRemove);
+                 double explode, std::span<const Appearance> paints = {},
+                 Walls walls = Walls::kRemove);
 
-/// A shell as triangles to draw.
+/// Triangles of a shell, with one vertex per combination of point, normal and texture coordinate.
 struct ShellTriangles {
   struct Vertex {
-    std::uint32_t point = 0;  ///< Of the mesh's vertices.
+    std::uint32_t point = 0;  ///< Index of a vertex of the shell's mesh.
     Vec3f normal = Vec3f::Zero();
-    Vec2f uv = Vec2f::Zero();  ///< In metres of the rest frame where the mesh has none.
+    /// Without texture coordinates in the mesh: metres in the rest frame, projected on the face.
+    Vec2f uv = Vec2f::Zero();
   };
-  std::vector<Vertex> vertices;                               ///< Each once.
-  std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  ///< By material.
+  std::vector<Vertex> vertices;  ///< Unique.
+  /// Vertex indices of triangles, by material.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces;
 };
+/// Triangulates a shell.
 ShellTriangles triangles_of(const Model::Shell& shell);
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// Read first: write_glb(). Each kind of data has one buffer view; primitives are ranges of them.
+// Begin with write_glb(). Each kind of data has one buffer view; primitives are ranges of these.
 #include "engine/io/mesh/glb_writer.h"
 
 #include <algorithm>
@@ -14,23 +14,23 @@ namespace {
 
 using nlohmann::json;
 
-// Numbers of the format.
+// Constants of the format.
 constexpr std::uint32_t kMagic = 0x46546c67, kJson = 0x4e4f534a, kBinary = 0x004e4942;
 constexpr int kFloat = 5126, kUnsigned = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
 
-/// The views of the buffer, in this order.
+/// Buffer views, in this order.
 enum View { kPositions, kNormals, kUvs, kIndices, kViews };
 constexpr std::array<std::size_t, kViews> kItemBytes = {12, 12, 8, 4};
 
-/// The triangles of one material, gathered from a part's shells.
+/// Triangles of one material, from all shells of a part.
 struct Primitive {
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> uvs;
   std::vector<std::uint32_t> indices;
 };
 
-/// Up to where what follows may begin.
-std::size_t filled(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
+/// Returns a size rounded up to the alignment of 4 bytes.
+std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
 
 class GlbWriter {
  public:
@@ -50,7 +50,7 @@ class GlbWriter {
     text.append((4 - text.size() % 4) % 4, ' ');
     std::size_t binary_size = 0;
     for (const ByteWriter& view : views_) binary_size += view.bytes.size();
-    for (const Picture& picture : pictures_) binary_size += filled(picture->size());
+    for (const EncodedImage& picture : pictures_) binary_size += aligned(picture->size());
     ByteWriter out;
     for (const std::size_t value :
          {std::size_t{kMagic}, std::size_t{2}, 28 + text.size() + binary_size, text.size(),
@@ -63,16 +63,16 @@ class GlbWriter {
     for (const ByteWriter& view : views_) {
       out.bytes.insert(out.bytes.end(), view.bytes.begin(), view.bytes.end());
     }
-    for (const Picture& picture : pictures_) {
+    for (const EncodedImage& picture : pictures_) {
       out.bytes.insert(out.bytes.end(), picture->begin(), picture->end());
-      out.bytes.resize(out.bytes.size() + filled(picture->size()) - picture->size());
+      out.bytes.resize(out.bytes.size() + aligned(picture->size()) - picture->size());
     }
     return out;
   }
 
  private:
   void add_material(const Model::Material& material) {
-    const Paint& look = material.look;
+    const Appearance& look = material.look;
     const Vec3f& c = look.color;
     json base = {{"baseColorFactor", {c.x(), c.y(), c.z(), 1.0}},
                  {"metallicFactor", look.gloss ? double{look.gloss->metallic} : 0.0},
@@ -84,14 +84,14 @@ class GlbWriter {
     json described = {{"name", material.name}, {"pbrMetallicRoughness", std::move(base)}};
     if (look.relief) {
       described["normalTexture"] = use(look.relief);
-      described["normalTexture"]["scale"] = look.relief_scale;
+      described["normalTexture"]["scale"] = look.normal_scale;
     }
     document_["materials"].push_back(std::move(described));
-    from_below_.push_back(look.from_below);
+    v_from_bottom_.push_back(look.v_from_bottom);
   }
 
-  /// A use of the texture of a picture, which is written once.
-  json use(const Picture& picture) {
+  /// Returns a reference to the texture of an image; each image is written once.
+  json use(const EncodedImage& picture) {
     const auto known = std::find(pictures_.begin(), pictures_.end(), picture);
     const auto number = static_cast<std::size_t>(known - pictures_.begin());
     if (known == pictures_.end()) {
@@ -104,13 +104,14 @@ class GlbWriter {
     return {{"index", number}};
   }
 
-  /// False if there is nothing to see of it.
+  /// Adds a part; returns false if it has no triangles.
   bool add_part(const Model::Part& part) {
     std::map<std::uint32_t, Primitive> primitives;
     for (const Model::Shell& shell : part.shells) {
       const ShellTriangles triangles = triangles_of(shell);
       for (const auto& [material, indices] : triangles.faces) {
-        add_triangles(shell, triangles, indices, from_below_[material], part, primitives[material]);
+        add_triangles(shell, triangles, indices, v_from_bottom_[material], part,
+                      primitives[material]);
       }
     }
     json list = json::array();
@@ -127,7 +128,7 @@ class GlbWriter {
   }
 
   static void add_triangles(const Model::Shell& shell, const ShellTriangles& triangles,
-                            const std::vector<std::uint32_t>& indices, bool from_below,
+                            const std::vector<std::uint32_t>& indices, bool v_from_bottom,
                             const Model::Part& part, Primitive& primitive) {
     constexpr std::uint32_t kNone = 0xffffffff;
     std::vector<std::uint32_t> new_of_old(triangles.vertices.size(), kNone);
@@ -138,7 +139,8 @@ class GlbWriter {
         const Vec3 position = shell.mesh->vertices[vertex.point] - part.center;
         primitive.positions.push_back(position.cast<float>());
         primitive.normals.push_back(vertex.normal);
-        primitive.uvs.push_back(from_below ? Vec2f(vertex.uv.x(), 1 - vertex.uv.y()) : vertex.uv);
+        primitive.uvs.push_back(v_from_bottom ? Vec2f(vertex.uv.x(), 1 - vertex.uv.y())
+                                              : vertex.uv);
       }
       primitive.indices.push_back(new_of_old[old]);
     }
@@ -185,18 +187,19 @@ class GlbWriter {
       document_["bufferViews"].push_back(std::move(described));
       offset += views_[view].bytes.size();
     }
-    for (const Picture& picture : pictures_) {
+    for (const EncodedImage& picture : pictures_) {
       document_["bufferViews"].push_back(
           {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", picture->size()}});
-      offset += filled(picture->size());
+      offset += aligned(picture->size());
     }
     document_["buffers"] = {{{"byteLength", offset}}};
   }
 
   json document_;
   std::array<ByteWriter, kViews> views_;
-  std::vector<Picture> pictures_;  ///< Whose views follow those.
-  std::vector<bool> from_below_;   ///< Of each material; the format counts from above.
+  std::vector<EncodedImage> pictures_;  ///< Images; their views follow those of `views_`.
+  /// For each material: texture rows count from below, unlike in glTF.
+  std::vector<bool> v_from_bottom_;
 };
 
 }  // namespace

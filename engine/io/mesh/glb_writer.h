@@ -1,4 +1,4 @@
-// glTF 2.0 in its binary form.
+// Writing of binary glTF 2.0 (GLB).
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,10 @@
 
 namespace sunder {
 
-/// A node a part, a primitive a material, with normals and texture coordinates; single precision
-/// around each part's centre. Pictures are written as they are, those of relief too, though the
-/// format knows no heights. Written under a temporary name and renamed. Throws FileError.
+/// Writes a model with one node per part and one primitive per material, with normals and texture
+/// coordinates, in single precision relative to each part's centre. Images are written unchanged; a
+/// height map becomes the normal texture, though glTF has no height maps. Written under a temporary
+/// name and renamed. Throws FileError.
 void write_glb(const std::filesystem::path& file, const Model& model);
 
 }  // namespace sunder

@@ -1,19 +1,20 @@
-// glTF 2.0 and GLB: the triangles of the scene's meshes, placed by their nodes. The JSON is parsed
-// by nlohmann-json; every number of it is checked before it is used.
-// Read first: read_gltf(), then class GltfScene; engine/io/mesh/mesh_gltf_data.h knows the bytes.
+// glTF 2.0 and GLB: the triangles of the scene's meshes, transformed by their nodes. The JSON is
+// parsed by nlohmann-json; every number is checked before use.
+//
+// Begin with read_gltf(), then class GltfScene; engine/io/mesh/mesh_gltf_data.h reads the buffers.
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include "engine/io/mesh/mesh_gltf_data.h"
-#include "engine/io/mesh/mesh_gltf_paints.h"
+#include "engine/io/mesh/mesh_gltf_materials.h"
 
 namespace sunder {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kDeepest = 64;  ///< Nodes within nodes.
+constexpr std::size_t kMaxNodeDepth = 64;  ///< Largest depth of the node hierarchy.
 
 Eigen::Matrix4d local_matrix(const json& node, const GltfData& data) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
@@ -46,7 +47,7 @@ class GltfScene {
   void add_scene() {
     const json& document = data_.document();
     const json& scenes = data_.array(document, "scenes");
-    if (scenes.empty()) {  // a library of meshes
+    if (scenes.empty()) {  // a file without scenes: all meshes are read
       for (const json& mesh : data_.array(document, "meshes")) {
         add_mesh(mesh, Eigen::Matrix4d::Identity(), {});
       }
@@ -60,7 +61,7 @@ class GltfScene {
 
   void add_node(const json& node_index, const Eigen::Matrix4d& parent, std::size_t depth) {
     const json& nodes = data_.array(data_.document(), "nodes");
-    if (depth > kDeepest || ++nodes_visited_ > nodes.size()) {
+    if (depth > kMaxNodeDepth || ++nodes_visited_ > nodes.size()) {
       data_.fail("nodes contain one another: export the mesh again");
     }
     const json& node = nodes[data_.to_index(node_index, nodes.size())];
@@ -110,12 +111,12 @@ class GltfScene {
     }
     const Mat3 linear = matrix.topLeftCorner<3, 3>();
     const bool mirrored = linear.determinant() < 0;
-    // The transpose of the inverse, up to a factor, where there is an inverse.
-    Mat3 turn;
+    // The transposed inverse up to a factor; defined for singular matrices as well.
+    Mat3 normal_matrix;
     for (int k = 0; k < 3; ++k) {
-      turn.col(k) = linear.col((k + 1) % 3).cross(linear.col((k + 2) % 3));
+      normal_matrix.col(k) = linear.col((k + 1) % 3).cross(linear.col((k + 2) % 3));
     }
-    if (mirrored) turn = -turn;
+    if (mirrored) normal_matrix = -normal_matrix;
     const std::size_t triangles =
         mode == 4 ? order.size() / 3 : std::max<std::size_t>(order.size(), 2) - 2;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -126,7 +127,7 @@ class GltfScene {
         mesh_.corner_normals.push_back(Vec3f::Zero());
         mesh_.corner_uvs.push_back(Vec2f::Zero());
         if (normals.size() == 3 * count) {
-          const Vec3 normal = turn * Eigen::Map<const Vec3>(normals.data() + 3 * v);
+          const Vec3 normal = normal_matrix * Eigen::Map<const Vec3>(normals.data() + 3 * v);
           mesh_.corner_normals.back() = normal.normalized().cast<float>();
         }
         if (uvs.size() == 2 * count) {
@@ -137,7 +138,7 @@ class GltfScene {
     source_.check_size(mesh_);
   }
 
-  /// Triangle t of a list (mode 4), strip (5) or fan (6).
+  /// Returns triangle t of a list (mode 4), strip (5) or fan (6).
   static std::array<std::uint32_t, 3> corners_of(std::size_t t, std::size_t mode,
                                                  const std::vector<std::uint32_t>& order) {
     if (mode == 4) return {order[3 * t], order[3 * t + 1], order[3 * t + 2]};
@@ -147,7 +148,7 @@ class GltfScene {
 
   const MeshSource& source_;
   GltfData data_;
-  GltfPaints paints_;
+  GltfMaterials paints_;
   RawMesh mesh_;
   std::size_t nodes_visited_ = 0;
 };

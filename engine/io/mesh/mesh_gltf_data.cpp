@@ -14,9 +14,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 32;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 32;
 
-/// A value for a message; what is nested in it may be endless.
+/// Returns a value for an error message, shortened; nested values could be of any size.
 std::string brief(const json& value) {
   return value.is_primitive() ? value.dump().substr(0, 40) : std::string(value.type_name());
 }
@@ -27,7 +27,7 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   return word;
 }
 
-/// The value of a base-64 digit; 64 if it is none.
+/// Returns the value of a base-64 digit; 64 if invalid.
 std::uint32_t digit(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
   if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a') + 26;
@@ -51,17 +51,17 @@ std::string decode_base64(std::string_view text) {
   return bytes;
 }
 
-/// Whether meshes cannot be read without knowing an extension; those of looks are passed over.
+/// True if an extension is needed to read meshes; extensions of appearance are ignored.
 bool changes_geometry(const std::string& extension) {
-  constexpr std::string_view kLooks[] = {"KHR_materials_", "KHR_texture_",  "KHR_lights_",
-                                         "KHR_xmp",        "EXT_texture_",  "EXT_lights_",
-                                         "MSFT_texture_",  "KHR_animation_"};
+  constexpr std::string_view kAppearancePrefixes[] = {
+      "KHR_materials_", "KHR_texture_", "KHR_lights_",   "KHR_xmp",
+      "EXT_texture_",   "EXT_lights_",  "MSFT_texture_", "KHR_animation_"};
   return extension != "KHR_mesh_quantization" &&
-         std::none_of(std::begin(kLooks), std::end(kLooks),
+         std::none_of(std::begin(kAppearancePrefixes), std::end(kAppearancePrefixes),
                       [&](std::string_view start) { return extension.starts_with(start); });
 }
 
-/// A relative reference with its escapes (%20) resolved.
+/// Resolves the escapes (%20) of a relative reference.
 std::string unescaped(const std::string& uri) {
   const auto digit_of = [](char c) {
     return c >= '0' && c <= '9'   ? c - '0'
@@ -79,11 +79,11 @@ std::string unescaped(const std::string& uri) {
   return text;
 }
 
-/// How an accessor's components are stored.
+/// Storage of an accessor's components.
 struct Component {
   std::size_t size = 0;
   double (*read)(const char*) = nullptr;
-  double scale = 1;  ///< Of normalized integers.
+  double scale = 1;  ///< Factor for normalized integers.
 };
 
 template <class T>
@@ -170,7 +170,7 @@ std::string GltfData::load_uri(const std::string& reference) const {
   }
   const std::string uri = unescaped(reference);
   if (uri.find('\0') != std::string::npos) fail("a buffer's uri is no text: export it again");
-  // A mesh from elsewhere must not make us read what is not its own.
+  // Security: a file from elsewhere must not make the program read other files.
   const std::filesystem::path path(uri);
   if (path.is_absolute() || uri.find("..") != std::string::npos || uri.find(':') < uri.size()) {
     fail("its buffers must lie in the same folder: export it as .glb");
@@ -239,8 +239,8 @@ std::string GltfData::view(const json& thing) const {
   const json& views = array(document_, "bufferViews");
   const json& view = views[index(thing, "bufferView", views.size())];
   const std::string_view buffer = buffers_[index(view, "buffer", buffers_.size())];
-  const std::size_t start = index(view, "byteOffset", kMostBytes, 0);
-  const std::size_t size = index(view, "byteLength", kMostBytes);
+  const std::size_t start = index(view, "byteOffset", kMaxBytes, 0);
+  const std::size_t size = index(view, "byteLength", kMaxBytes);
   if (start + size > buffer.size()) fail("a buffer view leaves its buffer: the file is cut short");
   return std::string(buffer.substr(start, size));
 }
@@ -252,9 +252,9 @@ std::vector<double> GltfData::items(const json& where, std::size_t count, std::s
   const json& views = array(document_, "bufferViews");
   const json& view = views[index(where, "bufferView", views.size())];
   const std::string_view buffer = buffers_[index(view, "buffer", buffers_.size())];
-  const std::size_t view_start = index(view, "byteOffset", kMostBytes, 0);
-  const std::size_t view_size = index(view, "byteLength", kMostBytes);
-  const std::size_t start = index(where, "byteOffset", kMostBytes, 0);
+  const std::size_t view_start = index(view, "byteOffset", kMaxBytes, 0);
+  const std::size_t view_size = index(view, "byteLength", kMaxBytes);
+  const std::size_t start = index(where, "byteOffset", kMaxBytes, 0);
   const std::size_t stride = index(view, "byteStride", 253, component.size * width);
   if (view_start + view_size > buffer.size() || stride < component.size * width ||
       (count > 0 && start + stride * (count - 1) + component.size * width > view_size)) {
@@ -277,7 +277,7 @@ std::vector<double> GltfData::values(std::size_t accessor_index, std::size_t wid
   if (!accessor.is_object() || !accessor.contains("type") || accessor["type"] != types[width - 1]) {
     fail("an accessor is of an unexpected type: export it again");
   }
-  const std::size_t type = index(accessor, "componentType", kMostBytes);
+  const std::size_t type = index(accessor, "componentType", kMaxBytes);
   const std::size_t count = index(accessor, "count", source_.limits.corners + 1);
   const bool zero = !accessor.contains("bufferView");
   if (zero && count > source_.bytes.size()) fail("an accessor has more items than the file bytes");
@@ -288,7 +288,7 @@ std::vector<double> GltfData::values(std::size_t accessor_index, std::size_t wid
     const std::size_t changed = index(sparse, "count", count + 1);
     const json& places = object(sparse, "indices");
     const std::vector<double> at =
-        items(places, changed, 1, index(places, "componentType", kMostBytes));
+        items(places, changed, 1, index(places, "componentType", kMaxBytes));
     const std::vector<double> by = items(object(sparse, "values"), changed, width, type);
     for (std::size_t i = 0; i < changed; ++i) {
       if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {

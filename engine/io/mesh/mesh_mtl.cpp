@@ -8,39 +8,39 @@
 namespace sunder {
 namespace {
 
-/// From a share of what a screen shows, as MTL has colours, to one of light; within 0.002, and of
-/// products alone, so that it is the same everywhere.
+/// Converts an sRGB component to linear; within 0.002. Uses products only, for equal results on
+/// every machine.
 float linear(double shown) {
   const double c = std::clamp(shown, 0.0, 1.0);
   return static_cast<float>(c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878));
 }
 
-/// The roughness of which highlights are as wide as those of an exponent of Blinn and Phong.
+/// Returns the roughness whose highlights are as wide as those of a Blinn-Phong exponent.
 float roughness_of(double exponent) {
   return static_cast<float>(std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))));
 }
 
 float share(double number) { return static_cast<float>(std::clamp(number, 0.0, 1.0)); }
 
-/// What an MTL says of a material.
+/// A material as an MTL file defines it.
 struct MtlMaterial {
-  Paint paint;
+  Appearance paint;
   std::optional<float> roughness, metallic;  ///< Pr and Pm.
   std::optional<double> exponent;            ///< Ns.
-  bool shines = true;                        ///< Unless Ks is black.
+  bool has_highlights = true;                ///< False if Ks is black.
 
-  Paint finished() const {
-    Paint result = paint;
-    if (!roughness && !metallic && !(exponent && shines)) return result;
+  Appearance appearance() const {
+    Appearance result = paint;
+    if (!roughness && !metallic && !(exponent && has_highlights)) return result;
     result.gloss.emplace().metallic = metallic.value_or(0);
-    if (roughness || (exponent && shines)) {
+    if (roughness || (exponent && has_highlights)) {
       result.gloss->roughness = roughness ? *roughness : roughness_of(*exponent);
     }
     return result;
   }
 };
 
-/// Red, green and blue; none if they are said otherwise.
+/// Returns an RGB colour; nothing for other colour formats.
 std::optional<Vec3> take_color(MeshText& text) {
   const std::string_view red = text.word();
   if (red == "spectral" || red == "xyz") return std::nullopt;
@@ -53,10 +53,10 @@ bool is_option_value(std::string_view word) {
          word.find_first_not_of("+-.0123456789e") == std::string_view::npos;
 }
 
-/// A line that names a picture: what is left of it without its options, and one of these.
+/// Reference to an image, with the option that is used; other options are skipped.
 struct PictureUse {
   std::string name;
-  double steeper = 1;  ///< -bm.
+  double scale = 1;  ///< Factor of the height map (-bm).
 };
 
 PictureUse take_picture_use(MeshText& text) {
@@ -64,9 +64,9 @@ PictureUse take_picture_use(MeshText& text) {
   bool in_option = false;
   for (std::string_view word; !(word = text.word()).empty();) {
     if (use.name.empty() && word == "-bm") {
-      use.steeper = text.number();
+      use.scale = text.number();
     } else if (use.name.empty() && (word == "-imfchan" || word == "-type")) {
-      text.word();  // a word, and no number
+      text.word();  // these options have a non-numeric value
     } else if (use.name.empty() && word.starts_with('-')) {
       in_option = true;
     } else if (!use.name.empty() || !in_option || !is_option_value(word)) {
@@ -77,14 +77,14 @@ PictureUse take_picture_use(MeshText& text) {
   return use;
 }
 
-/// The pictures beside a file, each read once.
-class PicturesBeside {
+/// Images in the folder of a file; each is read once.
+class FolderImages {
  public:
-  PicturesBeside(const MeshSource& source, std::vector<std::string>& missing)
+  FolderImages(const MeshSource& source, std::vector<std::string>& missing)
       : source_(source), missing_(missing) {}
 
-  /// Null if there is none of that name.
-  Picture find(const std::string& name) {
+  /// Returns an image; null if the file is missing.
+  EncodedImage find(const std::string& name) {
     const auto [entry, is_new] = known_.try_emplace(name);
     if (!is_new) return entry->second;
     if (const auto found = source_.beside(name)) {
@@ -99,14 +99,14 @@ class PicturesBeside {
  private:
   const MeshSource& source_;
   std::vector<std::string>& missing_;
-  std::map<std::string, Picture> known_;
+  std::map<std::string, EncodedImage> known_;
 };
 
 }  // namespace
 
-std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::string& name,
-                                      std::vector<std::string>& missing) {
-  std::map<std::string, Paint> paints;
+std::map<std::string, Appearance> read_mtl(const MeshSource& source, const std::string& name,
+                                           std::vector<std::string>& missing) {
+  std::map<std::string, Appearance> paints;
   const std::optional<std::string> bytes = source.beside(name);
   if (!bytes) {
     if (!name.empty()) missing.push_back(name);
@@ -114,28 +114,29 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
   }
   const MeshSource file{*bytes, source.file.parent_path() / name, source.limits};
   std::map<std::string, MtlMaterial> materials;
-  PicturesBeside pictures(source, missing);
+  FolderImages pictures(source, missing);
   MeshText text(file);
   MtlMaterial none;
   MtlMaterial* material = &none;
   while (text.next_line()) {
     const std::string_view keyword = text.word();
-    Paint& paint = material->paint;
+    Appearance& paint = material->paint;
     if (keyword == "newmtl") {
       material = &materials[text.words()];
-      material->paint.from_below = true;
+      material->paint.v_from_bottom = true;
     } else if (keyword == "Kd") {
       if (const auto color = take_color(text)) paint.color = color->unaryExpr(&linear);
     } else if (keyword == "map_Kd") {
       paint.picture = pictures.find(take_picture_use(text).name);
-      if (paint.picture && paint.color.isZero()) paint.color.setOnes();  // as exporters mean it
+      // exporters write black for an untinted image
+      if (paint.picture && paint.color.isZero()) paint.color.setOnes();
     } else if (keyword == "norm" || (!paint.relief && (keyword == "bump" || keyword == "map_bump" ||
                                                        keyword == "map_Bump"))) {
       const PictureUse use = take_picture_use(text);
       paint.relief = pictures.find(use.name);
-      paint.relief_scale = static_cast<float>(use.steeper);
+      paint.normal_scale = static_cast<float>(use.scale);
     } else if (keyword == "Ks") {
-      if (const auto color = take_color(text)) material->shines = !color->isZero();
+      if (const auto color = take_color(text)) material->has_highlights = !color->isZero();
     } else if (keyword == "Ns") {
       material->exponent = text.number();
     } else if (keyword == "Pr") {
@@ -144,7 +145,7 @@ std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::strin
       material->metallic = share(text.number());
     }
   }
-  for (const auto& [called, found] : materials) paints.emplace(called, found.finished());
+  for (const auto& [called, found] : materials) paints.emplace(called, found.appearance());
   return paints;
 }
 

@@ -1,4 +1,4 @@
-// The materials that an OBJ keeps in a file beside it.
+// Material files (MTL) of OBJ files.
 #pragma once
 
 #include <map>
@@ -9,10 +9,10 @@
 
 namespace sunder {
 
-/// By name, what the materials of an MTL beside `source` look like; none if there is no such file,
-/// and without the pictures that are not beside it. The names of such files are appended to
-/// `missing`. Throws InputError for what is no MTL.
-std::map<std::string, Paint> read_mtl(const MeshSource& source, const std::string& name,
-                                      std::vector<std::string>& missing);
+/// Returns the appearance of the materials of an MTL file in the folder of `source`, by name; empty
+/// if the file is missing. Missing images are left out. Appends the names of missing files to
+/// `missing`. Throws InputError if the file is not valid MTL.
+std::map<std::string, Appearance> read_mtl(const MeshSource& source, const std::string& name,
+                                           std::vector<std::string>& missing);
 
 }  // namespace sunder

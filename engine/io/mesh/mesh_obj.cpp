@@ -1,5 +1,5 @@
-// Wavefront OBJ: polygons of any size, groups, negative indices; what is not a surface is passed
-// over, as every reader of this format does.
+// Wavefront OBJ: polygons of any size, groups, negative indices. Statements other than surfaces are
+// ignored, as is usual for this format.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -10,15 +10,15 @@
 namespace sunder {
 namespace {
 
-/// One of the three lists a corner points into.
+/// One of the three lists that corners refer to.
 struct ObjList {
   const char* name;
   std::size_t count = 0;
-  std::size_t most_wanted = 0;  ///< The highest index used so far, from 1, and its line.
-  std::size_t wanted_line = 0;
+  std::size_t highest_index = 0;  ///< Highest index used so far, from 1.
+  std::size_t highest_line = 0;   ///< Line that used it.
 };
 
-/// What polygons are called.
+/// Names of polygons.
 struct Names {
   std::vector<std::string> groups;
   std::string object, material;
@@ -32,12 +32,12 @@ class ObjReader {
   RawMesh read() {
     while (text_.next_line()) statement(text_.word());
     for (const ObjList& list : lists_) {
-      if (list.most_wanted <= list.count) continue;
-      text_.fail_at(list.wanted_line, "there is no " + std::string(list.name) + " " +
-                                          std::to_string(list.most_wanted) + ", the file has " +
-                                          std::to_string(list.count) + ": export the mesh again");
+      if (list.highest_index <= list.count) continue;
+      text_.fail_at(list.highest_line, "there is no " + std::string(list.name) + " " +
+                                           std::to_string(list.highest_index) + ", the file has " +
+                                           std::to_string(list.count) + ": export the mesh again");
     }
-    spread();
+    set_corner_attributes();
     return std::move(mesh_);
   }
 
@@ -71,11 +71,11 @@ class ObjReader {
     }
   }
 
-  /// The number of what polygons are called now; files go to and fro between names.
+  /// Returns the index of the group with the current names; a file may return to earlier names.
   std::uint32_t group() {
     if (group_ != RawMesh::kNoGroup || names_ == Names()) return group_;
     const auto number = static_cast<std::uint32_t>(mesh_.groups.size());
-    const auto [known, is_new] = known_.try_emplace(names_, number);
+    const auto [known, is_new] = group_of_names_.try_emplace(names_, number);
     group_ = known->second;
     if (!is_new) return group_;
     std::vector<std::string> names = names_.groups;
@@ -91,7 +91,7 @@ class ObjReader {
   void face() {
     polygon_.clear();
     for (std::string_view word = text_.word(); !word.empty(); word = text_.word()) {
-      std::array<std::uint32_t, 3> corner{};  // vertex, uv, normal; from 1, 0 where there is none
+      std::array<std::uint32_t, 3> corner{};  // vertex, uv, normal; from 1, 0: none
       for (std::size_t k = 0; k < 3 && !word.empty(); ++k) {
         const std::size_t slash = std::min(word.find('/'), word.size());
         if (slash > 0) corner[k] = resolve(lists_[k], text_.to_integer(word.substr(0, slash)));
@@ -107,7 +107,7 @@ class ObjReader {
     if (mesh_.polygons.size() % 4096 == 0) source_.check_size(mesh_);
   }
 
-  /// An index from 1; negative ones count from the end of the list so far.
+  /// Returns an index from 1; negative indices count from the end of the list so far.
   std::uint32_t resolve(ObjList& list, std::int64_t index) {
     const auto count = static_cast<std::int64_t>(list.count);
     if (index == 0 || index < -count || index > std::int64_t{0x7fffffff}) {
@@ -115,14 +115,14 @@ class ObjReader {
                  std::to_string(count) + ": export the mesh again");
     }
     const auto from_one = static_cast<std::size_t>(index > 0 ? index : count + index + 1);
-    if (from_one > list.most_wanted) {
-      list.most_wanted = from_one;
-      list.wanted_line = text_.line();
+    if (from_one > list.highest_index) {
+      list.highest_index = from_one;
+      list.highest_line = text_.line();
     }
     return static_cast<std::uint32_t>(from_one);
   }
 
-  void spread() {
+  void set_corner_attributes() {
     for (std::size_t c = 0; c < mesh_.corners.size(); ++c) {
       const std::uint32_t uv = corner_uvs_[c], normal = corner_normals_[c];
       mesh_.corner_uvs.push_back(uv > 0 ? uvs_[uv - 1] : Vec2f(Vec2f::Zero()));
@@ -136,9 +136,10 @@ class ObjReader {
   std::vector<Vec2f> uvs_;
   std::vector<Vec3f> normals_;
   Names names_;
-  std::uint32_t group_ = RawMesh::kNoGroup;  ///< Of names_, once it is asked for.
-  std::map<Names, std::uint32_t> known_;
-  std::map<std::string, Paint> paints_;  ///< By the name of the material.
+  /// Group of `names_`, or kNoGroup if not determined yet.
+  std::uint32_t group_ = RawMesh::kNoGroup;
+  std::map<Names, std::uint32_t> group_of_names_;
+  std::map<std::string, Appearance> paints_;  ///< By name of the material.
   std::vector<std::uint32_t> polygon_, corner_uvs_, corner_normals_;
   std::array<ObjList, 3> lists_{{{"vertex"}, {"texture coordinate"}, {"normal"}}};
 };

@@ -6,7 +6,7 @@
 namespace sunder {
 namespace {
 
-/// What a vertex line holds after its position, from the keyword's prefix.
+/// Data of a vertex after its position, by the keyword's prefix.
 struct OffLayout {
   bool texture = false, color = false, normal = false;
 };
@@ -35,7 +35,7 @@ OffLayout layout_of(std::string_view word, const MeshText& text) {
 
 std::size_t to_count(std::string_view word, const MeshText& text, const MeshSource& source) {
   const std::int64_t count = text.to_integer(word);
-  // A vertex, face or corner takes two characters at least.
+  // A vertex, face or corner takes at least two characters.
   if (count < 0 || static_cast<std::size_t>(count) > source.bytes.size() / 2) {
     text.fail("a count of " + std::to_string(count) +
               " is more than the file can hold: it is cut short or corrupt");
@@ -47,7 +47,7 @@ std::size_t to_count(std::string_view word, const MeshText& text, const MeshSour
 
 RawMesh read_off(const MeshSource& source) {
   MeshText text(source);
-  text.need_line("header");
+  text.require_line("header");
   std::string_view first = text.word();
   OffLayout layout;
   if (first.front() < '0' || first.front() > '9') {  // some files begin with the counts
@@ -56,7 +56,7 @@ RawMesh read_off(const MeshSource& source) {
   }
   if (first == "BINARY") text.fail("binary OFF is not read: save it as text, or as PLY");
   if (first.empty()) {
-    text.need_line("counts");
+    text.require_line("counts");
     first = text.word();
   }
   const std::size_t vertex_count = to_count(first, text, source);
@@ -65,13 +65,13 @@ RawMesh read_off(const MeshSource& source) {
   RawMesh mesh;
   std::vector<Vec3f> normals;
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    text.need_line("vertices");
+    text.require_line("vertices");
     mesh.vertices.push_back(text.point());
     if (layout.normal) normals.push_back(text.point_or_nan().cast<float>());
   }
   std::vector<std::uint32_t> polygon;
   for (std::size_t f = 0; f < face_count; ++f) {
-    text.need_line("faces");
+    text.require_line("faces");
     polygon.clear();
     for (std::size_t i = 0, n = to_count(text.word(), text, source); i < n; ++i) {
       const std::int64_t v = text.integer();

@@ -1,5 +1,5 @@
-// PLY (Stanford polygons), in text or binary of either byte order. Elements and properties that
-// are not vertices, faces, normals or texture coordinates are passed over.
+// PLY (Stanford polygons), text or binary of either byte order. Elements and properties other than
+// vertices, faces, normals and texture coordinates are ignored.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,7 +14,7 @@ namespace {
 enum class PlyFormat { kText, kLittleEndian, kBigEndian };
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
-/// What a property is to us; the first eight are places in a vertex's record.
+/// Use of a property; the first eight are indices into a vertex's record.
 enum class PlyRole { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kU, kV, kCorners, kStrips, kOther };
 
 struct PlyProperty {
@@ -129,11 +129,11 @@ PlyHeader read_header(MeshText& text) {
   }
 }
 
-/// Values one after another, from text.
+/// Sequence of values from text.
 class TextValues {
  public:
   explicit TextValues(MeshText& text) : text_(text) {}
-  void begin() { text_.need_line("last vertex or face"); }
+  void begin() { text_.require_line("last vertex or face"); }
   double next(PlyType) { return text_.number_or_nan(); }
   void need(std::size_t, PlyType) {}
   [[noreturn]] void fail(const std::string& what) const { text_.fail(what); }
@@ -142,7 +142,7 @@ class TextValues {
   MeshText& text_;
 };
 
-/// Values one after another, from bytes of one order.
+/// Sequence of values from bytes of one byte order.
 class BinaryValues {
  public:
   BinaryValues(const MeshSource& source, std::string_view bytes, bool swap)
@@ -259,7 +259,7 @@ class PlyBody {
     if (strips) add_strip();
   }
 
-  /// Triangles of every three vertices in a row, turned to face the same way.
+  /// Adds a triangle for every three consecutive vertices, in consistent orientation.
   void add_strip() {
     for (std::size_t i = 2; i < polygon_.size(); ++i) {
       const std::size_t odd = i % 2;

@@ -9,8 +9,8 @@
 namespace sunder {
 namespace {
 
-/// Larger coordinates (in metres) overflow what is computed from them, or are no coordinates.
-constexpr double kFarthest_m = 1e9;
+/// Larger coordinates (in metres) are invalid or would overflow in later computations.
+constexpr double kMaxCoordinate_m = 1e9;
 
 const std::map<std::string, MeshFormat>& formats() {
   static const std::map<std::string, MeshFormat> by_extension = {
@@ -56,15 +56,15 @@ void drop_if_zero(std::vector<Attribute>& attributes) {
   }
 }
 
-/// Holds whatever a reader made to what RawMesh promises.
+/// Checks the requirements of RawMesh and replaces invalid normals and texture coordinates by 0.
 void check(RawMesh& mesh, const MeshSource& source) {
   source.check_size(mesh);
   if (mesh.polygons.empty()) {
     source.fail("there are no faces in it: export polygons, not points or curves");
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    // (A maximum may lose what is not a number.)
-    if (!(mesh.vertices[v].array().abs() <= kFarthest_m).all()) {
+    // maxCoeff() could ignore NaN.
+    if (!(mesh.vertices[v].array().abs() <= kMaxCoordinate_m).all()) {
       source.fail("vertex " + std::to_string(v + 1) +
                   " is not within 1e9 m of the origin: export the mesh again, or scale it");
     }

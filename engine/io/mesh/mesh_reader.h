@@ -1,7 +1,7 @@
-// Meshes from files: OBJ, PLY, STL, OFF and glTF/GLB. Files are not trusted: whatever the bytes,
-// reading ends with a mesh or an InputError (docs/decisions, "Mesh input").
+// Reading of meshes from OBJ, PLY, STL, OFF and glTF/GLB files. Files are not trusted: any sequence
+// of bytes gives a mesh or an InputError (docs/decisions, "Mesh input").
 //
-// Read first: read_mesh(), then one of the format's files: mesh_obj.cpp and its neighbours.
+// Begin with read_mesh(), then the file of a format, such as mesh_obj.cpp.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,21 @@
 
 namespace sunder {
 
-/// What a file may ask for at most.
+/// Upper limits of a mesh file.
 struct MeshLimits {
   std::size_t bytes = std::size_t{1} << 30;
   std::size_t vertices = std::size_t{1} << 24;
-  std::size_t corners = std::size_t{1} << 26;  ///< Of all polygons together.
+  std::size_t corners = std::size_t{1} << 26;  ///< Sum over all polygons.
 };
 
 enum class MeshFormat { kObj, kPly, kStl, kOff, kGltf };
 
-/// The file's polygons in its own coordinates, every index checked, every coordinate finite.
-/// Throws InputError naming file, line (where the format has lines) and what to do.
+/// Returns the file's polygons in the file's coordinates; all indices are valid and all coordinates
+/// finite. Throws InputError with file, line (if the format has lines) and remedy.
 RawMesh read_mesh(const std::filesystem::path& file, const MeshLimits& limits = {});
 
-/// As read_mesh(), of bytes in memory; `file` is named in errors, and the buffers that a glTF keeps
-/// beside it are sought in its folder.
+/// Reads a mesh from memory as read_mesh() does. `file` is used in error messages, and its folder
+/// for the external buffers of glTF.
 RawMesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format,
                    const std::filesystem::path& file, const MeshLimits& limits = {});
 

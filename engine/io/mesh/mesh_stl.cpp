@@ -1,5 +1,4 @@
-// STL, in text or binary: triangles that share no vertices. Its facet normals say nothing that the
-// vertices do not, and are passed over.
+// STL, text or binary: triangles without shared vertices. Facet normals are ignored as redundant.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,15 +11,15 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 80, kTriangleBytes = 50;
 
-/// Of a binary file; one whose writer did not know the count when it began says 0.
+/// Returns the number of triangles of a binary file; some writers leave the stored count 0.
 std::size_t triangle_count(std::string_view bytes) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + kHeaderBytes, sizeof count);
   return count > 0 ? count : (bytes.size() - kHeaderBytes - 4) / kTriangleBytes;
 }
 
-/// The text "solid" opens many a binary file too; but only in those, the count has a byte that no
-/// text has.
+/// True for binary files. Many of these begin with "solid" as text files do, but only their count
+/// has a byte 0.
 bool is_binary(std::string_view bytes) {
   return bytes.size() >= kHeaderBytes + 4 &&
          (bytes.size() - kHeaderBytes - 4) / kTriangleBytes >= triangle_count(bytes) &&

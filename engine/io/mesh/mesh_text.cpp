@@ -10,7 +10,7 @@
 namespace sunder {
 namespace {
 
-/// Text from a file, shortened and made printable.
+/// Returns text of a file for an error message: shortened and printable.
 std::string quoted(std::string_view word) {
   std::string text = "'";
   for (const char c : word.substr(0, 32)) text += c >= ' ' && c <= '~' ? c : '?';
@@ -68,7 +68,7 @@ bool MeshText::next_line() {
   return at_ < text_.size();
 }
 
-void MeshText::need_line(const std::string& what) {
+void MeshText::require_line(const std::string& what) {
   while (next_line()) {
     const std::size_t start = at_;
     if (!word().empty()) {
@@ -111,7 +111,7 @@ double MeshText::to_number(std::string_view word) const {
   const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
-    return value;  // too small to tell from zero, or so large that the check of the mesh refuses it
+    return value;  // out of range: from_chars() leaves `value` 0
   }
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
     fail(word.empty() ? "a number is missing: export the mesh again"

@@ -1,4 +1,4 @@
-// What the readers of meshes share: the source they read, and walking its text by lines and words.
+// Common parts of mesh readers: the source, and a parser of lines and words.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace sunder {
 
-/// A file in memory.
+/// A mesh file in memory.
 struct MeshSource {
   std::string_view bytes;
   std::filesystem::path file;
@@ -22,10 +22,10 @@ struct MeshSource {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(file.string() + ": " + what);
   }
-  /// What a file in the same folder, or below, holds; none if there is none, or it is elsewhere: a
-  /// mesh from somebody else must not make us read what is not its own.
+  /// Returns the content of a file in the same folder or below; nothing if it is missing or
+  /// elsewhere. Security: a file from elsewhere must not make the program read other files.
   std::optional<std::string> beside(const std::string& name) const;
-  /// Throws InputError if the mesh has outgrown the limits.
+  /// Throws InputError if the mesh exceeds the limits.
   void check_size(const RawMesh& mesh) const;
 };
 
@@ -35,41 +35,42 @@ RawMesh read_stl(const MeshSource& source);
 RawMesh read_off(const MeshSource& source);
 RawMesh read_gltf(const MeshSource& source);
 
-/// Appends a polygon of vertices with the group last named.
+/// Appends a polygon, in the last group.
 void add_polygon(RawMesh& mesh, std::span<const std::uint32_t> vertices);
-/// Gives every corner the normal and texture coordinate of its vertex; empty: it has none.
+/// Copies normals and texture coordinates of vertices to corners; an empty span sets none.
 void spread_to_corners(RawMesh& mesh, std::span<const Vec3f> normals, std::span<const Vec2f> uvs);
 
-/// Text by lines and words, numbers parsed alike in every locale. A '#' ends a line; a '\' joins it
-/// to the next. Lines end as on any system; a byte order mark is passed over.
+/// Parser of lines and words; numbers do not depend on the locale. A '#' ends a line; a '\' joins
+/// it to the next. Line ends of all systems are accepted, and a byte order mark is skipped.
 class MeshText {
  public:
   explicit MeshText(const MeshSource& source);
 
-  /// Moves to the next line, or tells that there is none.
+  /// Moves to the next line; returns false if there is none.
   bool next_line();
-  /// Moves to the next line with a word on it, or fails saying that `what` is missing.
-  void need_line(const std::string& what);
-  /// The line's next word; empty at its end.
+  /// Moves to the next line that has a word; throws InputError that `what` is missing otherwise.
+  void require_line(const std::string& what);
+  /// Returns the next word of the line; empty at its end.
   std::string_view word();
-  /// All its words from here on, a blank between them.
+  /// Returns the remaining words of the line, separated by blanks.
   std::string words();
-  /// The line's next word, which must be a finite number.
+  /// Reads the next word as a finite number.
   double number() { return to_number(word()); }
   double to_number(std::string_view word) const;
-  /// The line's next word, which may say that it is not a number, as exporters write for normals of
-  /// faces without area; an infinity is none either.
+  /// Reads the next word as a number that may be NaN, as exporters write for normals of degenerate
+  /// faces; infinity becomes NaN.
   double number_or_nan() { return to_number_or_nan(word()); }
   double to_number_or_nan(std::string_view word) const;
-  /// The line's next word, which must be an integer.
+  /// Reads the next word as an integer.
   std::int64_t integer() { return to_integer(word()); }
   std::int64_t to_integer(std::string_view word) const;
+  /// Reads three finite numbers.
   Vec3 point();
-  /// As point(), of numbers that nothing depends on.
+  /// Reads three numbers that may be NaN.
   Vec3 point_or_nan();
 
   std::size_t line() const { return line_; }
-  /// What is left of the text, from the line after this one.
+  /// Returns the text from the next line on.
   std::string_view rest() const;
   [[noreturn]] void fail(const std::string& what) const { fail_at(line_, what); }
   [[noreturn]] void fail_at(std::size_t line, const std::string& what) const;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMaterials = "materials.mtl";
 
-/// Text under way; numbers are as short as they can be without being rounded.
+/// A text buffer; numbers are written in the shortest form that is exact.
 class Text {
  public:
   Text& operator<<(std::string_view words) {
@@ -37,7 +37,7 @@ class Text {
   ByteWriter out_;
 };
 
-/// Material names are words in these formats.
+/// Returns a material name without blanks, which OBJ and MTL do not allow.
 std::string as_word(std::string name) {
   for (char& c : name) {
     if (c == ' ' || c == '\t') c = '_';
@@ -87,17 +87,17 @@ void write_part(const fs::path& file, const Model::Part& part, const Model& mode
   out.write(file);
 }
 
-/// Whether a folder may be replaced: all that lies in it was written here.
+/// Throws InputError if a folder has files that were not written by this module.
 void check_replaceable(const fs::path& folder) {
   if (!fs::exists(folder)) return;
-  bool ours = fs::is_directory(folder);
-  if (ours) {
+  bool is_export = fs::is_directory(folder);
+  if (is_export) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
-      ours &= name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
+      is_export &= name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
     }
   }
-  if (!ours) {
+  if (!is_export) {
     throw InputError(folder.string() +
                      ": holds other files than an earlier export; name another folder");
   }

@@ -1,4 +1,4 @@
-// Wavefront OBJ, a file a part.
+// Writing of Wavefront OBJ, one file per part.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,9 @@
 
 namespace sunder {
 
-/// Fills a folder with one .obj of triangles a part, in double precision, and materials.mtl. The
-/// folder is made under a temporary name and renamed; one that stands there already is replaced if
-/// all it holds is such files. Throws InputError for
-/// another folder, FileError if it cannot be written.
+/// Writes a folder with one .obj of triangles per part, in double precision, and materials.mtl. The
+/// folder is created under a temporary name and renamed; an existing folder is replaced if it has
+/// only such files. Throws InputError if it has other files, and FileError if it cannot be written.
 void write_obj_folder(const std::filesystem::path& folder, const Model& model);
 
 }  // namespace sunder

@@ -12,26 +12,29 @@
 namespace sunder {
 namespace {
 
-constexpr double kSink = 1.55;   // measured: sink over load·g·h²
-constexpr double kReach = 0.02;  // of a body's size: what is so near touches
-constexpr double kAbove = 0.25;  // of the smaller height: centres so far apart are above each other
-// A chain of blocks on springs of rotation buckles so (docs/decisions/027); near that
-// it takes a minute to.
+constexpr double kSinkFactor = 1.55;  // penetration over load·g·h²; measured (docs/decisions/027)
+constexpr double kTouchDistance = 0.02;  // distance over a body's size within which bodies touch
+// least height difference of centres, over the smaller size, of bodies on each other
+constexpr double kMinHeightDifference = 0.25;
+// Buckling limits of a chain of blocks on rotational springs (docs/decisions/027), of size/N² in
+// penetration. Close to the limit, buckling takes a minute.
 constexpr double kBuckleSelf = 1.96, kBuckleLoaded = 0.62;
-constexpr double kDeepest = 0.02;  // of a body's size
-constexpr double kCrushed = 0.5;   // of it: what is deeper in may be let through
+constexpr double kMaxSink = 0.02;  // largest penetration over a body's size for a stack to stand
+// penetration over a body's size beyond which bodies may pass through each other
+constexpr double kCrushSink = 0.5;
 constexpr double kFrame_s = 1.0 / 60;
-constexpr double kFloat = std::numeric_limits<float>::epsilon();
-constexpr double kFarthest_m = 32768;  // engine/io/particle_codes.cpp: 2^22 steps of 1/128 m
+constexpr double kFloatEpsilon = std::numeric_limits<float>::epsilon();
+// limit in engine/io/particle_codes.cpp: 2^22 steps of 1/128 m
+constexpr double kMaxDebrisDistance_m = 32768;
 
-/// A body that can move, as far as it matters here.
+/// A movable body, reduced to its box.
 struct Block {
   std::string name;
   Box box;
-  double height = 0;  ///< Of its centre, against gravity.
+  double height = 0;  ///< Height of its centre, against gravity.
   double mass_kg = 0;
   double size_m = 0;
-  double tilt_1_m = 0;  ///< Its height over its narrower width squared: a wide brick tilts less.
+  double slenderness_1_m = 0;  ///< Height over squared narrower width.
 };
 
 std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
@@ -44,7 +47,7 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
     block.name = solid.name;
     for (const ConvexPtr& convex : solid.compound.convexes)
       for (const Vec3& corner : convex->polyhedron.vertices) block.box.extend(solid.X_WR * corner);
-    block.mass_kg = weigh(solid.compound, scene.materials).mass_kg;
+    block.mass_kg = mass_of(solid.compound, scene.materials).mass_kg;
     blocks.push_back(block);
   }
   for (const Ball& ball : scene.balls) {
@@ -59,12 +62,12 @@ std::vector<Block> blocks_of(const Scene& scene, const Vec3& up) {
     block.size_m = width.minCoeff();
     double& tall_m = width[upward];
     const double height_m = std::exchange(tall_m, std::numeric_limits<double>::infinity());
-    block.tilt_1_m = height_m / (width.minCoeff() * width.minCoeff());
+    block.slenderness_1_m = height_m / (width.minCoeff() * width.minCoeff());
   }
   return blocks;
 }
 
-/// What each block stands on.
+/// Returns for each block the blocks below that it touches.
 std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& blocks) {
   std::vector<Box> boxes;
   for (const Block& block : blocks) boxes.push_back(block.box);
@@ -72,11 +75,11 @@ std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& block
   std::vector<std::vector<std::uint32_t>> below(blocks.size());
   std::vector<std::uint32_t> hits;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const Vec3 reach = Vec3::Constant(kReach * blocks[i].size_m);
+    const Vec3 reach = Vec3::Constant(kTouchDistance * blocks[i].size_m);
     hits.clear();
     tree.overlaps({blocks[i].box.min - reach, blocks[i].box.max + reach}, hits);
     for (const std::uint32_t other : hits) {
-      const double least = kAbove * std::min(blocks[i].size_m, blocks[other].size_m);
+      const double least = kMinHeightDifference * std::min(blocks[i].size_m, blocks[other].size_m);
       if (blocks[i].height > blocks[other].height + least) below[i].push_back(other);
     }
   }
@@ -85,13 +88,14 @@ std::vector<std::vector<std::uint32_t>> supports(const std::vector<Block>& block
 
 double buckling_sink_m(const Stack& stack) {
   const double n = stack.bodies;
-  const double limit = (stack.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * stack.tilt_1_m);
-  return std::min(kDeepest * stack.size_m, limit);
+  const double limit =
+      (stack.load > 2 * n ? kBuckleLoaded : kBuckleSelf) / (n * stack.slenderness_1_m);
+  return std::min(kMaxSink * stack.size_m, limit);
 }
 
 }  // namespace
 
-Stacks stacks_in(const Scene& scene) {
+Stacks find_stacks(const Scene& scene) {
   Stacks found;
   if (scene.gravity_W.isZero()) return found;
   const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
@@ -103,17 +107,17 @@ Stacks stacks_in(const Scene& scene) {
       order, [&](std::uint32_t a, std::uint32_t b) { return blocks[a].height > blocks[b].height; });
   std::vector<Stack> stacks(blocks.size());
   std::vector<double> carried_kg(blocks.size());
-  double most = 0, softest = 0;
+  double max_load = 0, max_stiffness = 0;
   for (const std::uint32_t i : order) {
     Stack& stack = stacks[i];
     ++stack.bodies;
     stack.size_m = stack.bodies > 1 ? std::min(stack.size_m, blocks[i].size_m) : blocks[i].size_m;
-    stack.tilt_1_m += blocks[i].tilt_1_m;
+    stack.slenderness_1_m += blocks[i].slenderness_1_m;
     carried_kg[i] += blocks[i].mass_kg;
     stack.load = carried_kg[i] / blocks[i].mass_kg;
-    if (stack.load > most) most = stack.load, found.deepest = stack;
-    const double need = stack.load / buckling_sink_m(stack);
-    if (need > softest) softest = need, found.weakest = stack;
+    if (stack.load > max_load) max_load = stack.load, found.deepest = stack;
+    const double stiffness = stack.load / buckling_sink_m(stack);
+    if (stiffness > max_stiffness) max_stiffness = stiffness, found.weakest = stack;
     for (const std::uint32_t lower : below[i]) {
       carried_kg[lower] += carried_kg[i] / static_cast<double>(below[i].size());
       if (stack.bodies > stacks[lower].bodies) stacks[lower] = stack;
@@ -122,29 +126,30 @@ Stacks stacks_in(const Scene& scene) {
   return found;
 }
 
-double expected_sink_m(const Stack& stack, double gravity_m_s2, double h_s) {
-  return kSink * stack.load * gravity_m_s2 * h_s * h_s;
+double expected_penetration_m(const Stack& stack, double gravity_m_s2, double h_s) {
+  return kSinkFactor * stack.load * gravity_m_s2 * h_s * h_s;
 }
 
-int substeps_for_sink(const Stack& stack, double gravity_m_s2, double dt_s, double target_m) {
-  const double sink_m = expected_sink_m(stack, gravity_m_s2, dt_s);
+int substeps_for_penetration(const Stack& stack, double gravity_m_s2, double dt_s,
+                             double target_m) {
+  const double sink_m = expected_penetration_m(stack, gravity_m_s2, dt_s);
   return std::max(1, static_cast<int>(std::ceil(std::min(1e6, std::sqrt(sink_m / target_m)))));
 }
 
-int substeps_to_stand(const Stack& stack, double gravity_m_s2, double dt_s) {
+int substeps_against_buckling(const Stack& stack, double gravity_m_s2, double dt_s) {
   if (stack.bodies == 0) return 1;
-  return substeps_for_sink(stack, gravity_m_s2, dt_s, buckling_sink_m(stack));
+  return substeps_for_penetration(stack, gravity_m_s2, dt_s, buckling_sink_m(stack));
 }
 
-Accuracy accuracy_to_stand(const Scene& scene, int most_substeps) {
+Accuracy accuracy_against_buckling(const Scene& scene, int max_substeps) {
   const Accuracy& accuracy = scene.accuracy;
   const int all =
-      substeps_to_stand(stacks_in(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
-  return cut_in_substeps(accuracy, all, most_substeps);
+      substeps_against_buckling(find_stacks(scene).weakest, scene.gravity_W.norm(), accuracy.dt_s);
+  return divide_step(accuracy, all, max_substeps);
 }
 
-Accuracy cut_in_substeps(Accuracy accuracy, int all, int most_substeps) {
-  const int steps = (all + most_substeps - 1) / most_substeps;
+Accuracy divide_step(Accuracy accuracy, int all, int max_substeps) {
+  const int steps = (all + max_substeps - 1) / max_substeps;
   accuracy.dt_s /= steps;
   accuracy.substeps = (all + steps - 1) / steps;
   return accuracy;
@@ -163,67 +168,69 @@ std::string long_step_warning(const Scene& scene) {
 
 std::string far_warning(const Scene& scene) {
   const std::string* name = nullptr;
-  double farthest_m = kFarthest_m;
-  const auto see = [&](const std::string& what, const Vec3& position_W) {
+  double farthest_m = kMaxDebrisDistance_m;
+  const auto check_position = [&](const std::string& what, const Vec3& position_W) {
     const double away_m = position_W.cwiseAbs().maxCoeff();
     if (away_m > farthest_m) farthest_m = away_m, name = &what;
   };
-  for (const Solid& solid : scene.solids) see(solid.name, solid.X_WR.position);
-  for (const Ball& ball : scene.balls) see(ball.name, ball.center_W);
-  for (const Shot& shot : scene.shots) see(shot.ball.name, shot.ball.center_W);
+  for (const Solid& solid : scene.solids) check_position(solid.name, solid.X_WR.position);
+  for (const Ball& ball : scene.balls) check_position(ball.name, ball.center_W);
+  for (const Shot& shot : scene.shots) check_position(shot.ball.name, shot.ball.center_W);
   if (!name) return {};
   char text[300];
   std::snprintf(text, sizeof text,
                 "'%s' is %.4g m from the origin: bodies move as anywhere, but debris and dust are "
                 "placed to no better than %.1g m, and takes hold debris up to %.4g m only; set "
                 "every position nearer to the origin",
-                name->c_str(), farthest_m, farthest_m * kFloat, kFarthest_m);
+                name->c_str(), farthest_m, farthest_m * kFloatEpsilon, kMaxDebrisDistance_m);
   return text;
 }
 
-std::string crush_warning(const Scene& scene, int most_substeps) {
+std::string crush_warning(const Scene& scene, int max_substeps) {
   if (scene.gravity_W.isZero()) return {};
   const Accuracy& accuracy = scene.accuracy;
   const std::vector<Block> blocks = blocks_of(scene, -scene.gravity_W.normalized());
   if (blocks.size() < 2) return {};
   const Block& heavy = *std::ranges::max_element(blocks, {}, &Block::mass_kg);
-  // What sinks in by the largest part of its size is the lightest for it.
+  // The body with the largest penetration over its size has the least mass times size.
   const Block& light = *std::ranges::min_element(
       blocks, {}, [](const Block& block) { return block.mass_kg * block.size_m; });
   const double ratio = heavy.mass_kg / light.mass_kg, g = scene.gravity_W.norm();
   const Stack pair{2, 1 + ratio, light.size_m};
-  if (expected_sink_m(pair, g, accuracy.dt_s / accuracy.substeps) < kCrushed * pair.size_m)
+  if (expected_penetration_m(pair, g, accuracy.dt_s / accuracy.substeps) < kCrushSink * pair.size_m)
     return {};
-  const Accuracy bear = cut_in_substeps(
-      accuracy, substeps_for_sink(pair, g, accuracy.dt_s, kDeepest * pair.size_m), most_substeps);
+  const Accuracy sufficient = divide_step(
+      accuracy, substeps_for_penetration(pair, g, accuracy.dt_s, kMaxSink * pair.size_m),
+      max_substeps);
   char text[400];
   std::snprintf(text, sizeof text,
                 "'%s' weighs %.4g times what '%s' does, which would give way if it came to lie "
                 "under it: %d substeps of dt 1/%.4g s would bear it, there are %d of 1/%.4g s; set "
                 "accuracy.substeps%s, or make the lighter one heavier",
-                heavy.name.c_str(), ratio, light.name.c_str(), bear.substeps, 1 / bear.dt_s,
-                accuracy.substeps, 1 / accuracy.dt_s,
-                bear.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
+                heavy.name.c_str(), ratio, light.name.c_str(), sufficient.substeps,
+                1 / sufficient.dt_s, accuracy.substeps, 1 / accuracy.dt_s,
+                sufficient.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
   return text;
 }
 
-std::string accuracy_warning(const Scene& scene, int most_substeps) {
+std::string accuracy_warning(const Scene& scene, int max_substeps) {
   const Accuracy& accuracy = scene.accuracy;
-  const Stacks stacks = stacks_in(scene);
+  const Stacks stacks = find_stacks(scene);
   const double g = scene.gravity_W.norm();
   char text[400];
-  if (substeps_to_stand(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
-    const Accuracy stand = accuracy_to_stand(scene, most_substeps);
+  if (substeps_against_buckling(stacks.weakest, g, accuracy.dt_s) > accuracy.substeps) {
+    const Accuracy sufficient = accuracy_against_buckling(scene, max_substeps);
     std::snprintf(text, sizeof text,
                   "%u bodies on top of each other, the lowest under %.4g times its own weight, may "
                   "sink in and buckle: %d substeps of dt 1/%.4g s would hold them, there are %d "
                   "of 1/%.4g s; set accuracy.substeps%s, or a finer preset",
-                  stacks.weakest.bodies, stacks.weakest.load, stand.substeps, 1 / stand.dt_s,
-                  accuracy.substeps, 1 / accuracy.dt_s,
-                  stand.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
+                  stacks.weakest.bodies, stacks.weakest.load, sufficient.substeps,
+                  1 / sufficient.dt_s, accuracy.substeps, 1 / accuracy.dt_s,
+                  sufficient.dt_s < accuracy.dt_s ? " and accuracy.dt_s" : "");
     return text;
   }
-  const double sink_m = expected_sink_m(stacks.deepest, g, accuracy.dt_s / accuracy.substeps);
+  const double sink_m =
+      expected_penetration_m(stacks.deepest, g, accuracy.dt_s / accuracy.substeps);
   if (accuracy.error_target_m > 0 && sink_m > accuracy.error_target_m) {
     std::snprintf(text, sizeof text,
                   "error_target_m = %g is out of reach with dt 1/%.4g s and %d substeps, the most "

@@ -1,4 +1,4 @@
-// What hangs in joints, and the substeps that its pull asks for.
+// Estimates of the substeps that hanging chains of a scene need.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,20 @@
 
 namespace sunder {
 
-/// The link of a chain that asks for the shortest substep.
+/// The link of a chain that needs the shortest substep.
 struct ChainLink {
   std::string name;
-  double load = 0;   ///< What hangs on it, itself included, in its own weights.
-  int substeps = 1;  ///< Of the scene's `dt_s`, to follow its pull: docs/decisions/026.
+  double load = 0;  ///< Mass that hangs on the link, itself included, over its own mass.
+  /// Substeps of the scene's `dt_s` that the joint needs under its tension (docs/decisions/026).
+  int substeps = 1;
 };
 
-/// One for each wrecking ball with links, and for each thing that is joined to what cannot move and
-/// has something hanging from it; in their order.
-std::vector<ChainLink> chains_in(const Scene& scene);
+/// Returns one link for each wrecking ball with links, and for each body that is jointed to a
+/// static one and has something hanging from it; in their order.
+std::vector<ChainLink> find_chains(const Scene& scene);
 
-/// What a user, who may ask for so many substeps, should know of each chain that would tear.
-std::vector<std::string> chain_warnings(const Scene& scene, int most_substeps);
+/// Returns a warning about each chain that would tear, with a remedy of at most `max_substeps`
+/// substeps per step.
+std::vector<std::string> chain_warnings(const Scene& scene, int max_substeps);
 
 }  // namespace sunder

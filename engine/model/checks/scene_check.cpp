@@ -1,4 +1,4 @@
-// Read first: check_scene(), at the end.
+// Begin with check_scene(), at the end.
 #include "engine/model/checks/scene_check.h"
 
 #include <algorithm>
@@ -34,7 +34,8 @@ std::string item(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "]";
 }
 
-constexpr double kFar = 1e9, kLong_s = 1e7;
+// Largest length, coefficient or other number, and largest time, that a scene may have.
+constexpr double kMaxNumber = 1e9, kMaxTime_s = 1e7;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class SceneCheck {
@@ -55,7 +56,7 @@ class SceneCheck {
 
  private:
   void check_run() const {
-    need_number(scene_.duration_s, 0, kLong_s, "duration_s");
+    need_number(scene_.duration_s, 0, kMaxTime_s, "duration_s");
     need_finite(scene_.gravity_W, "gravity_W");
     const Accuracy& accuracy = scene_.accuracy;
     need_number(accuracy.dt_s, 1e-6, 1, "accuracy.dt_s");
@@ -64,12 +65,12 @@ class SceneCheck {
     if (steps > 1 && std::abs(steps - std::round(steps)) > 1e-6 * steps)
       refuse("accuracy.dt_s is " + text_of(accuracy.dt_s),
              "a frame of 1/60 s divided by a whole number, such as 1/120");
-    need_number(accuracy.error_target_m, 0, kFar, "accuracy.error_target_m");
+    need_number(accuracy.error_target_m, 0, kMaxNumber, "accuracy.error_target_m");
     need_number(scene_.solver.sweeps, 1, 1000, "solver.sweeps");
     need_number(scene_.solver.max_colors, 0, 64, "solver.max_colors");
     need_number(scene_.limits.bodies, 1, 1e9, "limits.bodies");
-    need_number(scene_.ground.height_m, -kFar, kFar, "ground.height_m");
-    need_number(scene_.ground.friction, 0, kFar, "ground.friction");
+    need_number(scene_.ground.height_m, -kMaxNumber, kMaxNumber, "ground.height_m");
+    need_number(scene_.ground.friction, 0, kMaxNumber, "ground.friction");
     need_number(scene_.ground.restitution, 0, 1, "ground.restitution");
   }
 
@@ -77,9 +78,9 @@ class SceneCheck {
     const Material& material = scene_.materials[i];
     const std::string name = item("materials", i) + ".";
     need_number(material.density_kg_m3, 1e-6, 1e9, name + "density_kg_m3");
-    need_number(material.friction, 0, kFar, name + "friction");
+    need_number(material.friction, 0, kMaxNumber, name + "friction");
     need_number(material.restitution, 0, 1, name + "restitution");
-    need_number(material.rolling, 0, kFar, name + "rolling");
+    need_number(material.rolling, 0, kMaxNumber, name + "rolling");
     need_number(material.youngs_Pa, 1, 1e15, name + "youngs_Pa");
     const std::pair<double, const char*> sizes[] = {
         {material.strength_Ns.value_or(0), "strength_Ns"},
@@ -97,35 +98,37 @@ class SceneCheck {
     need_number(material.elongation, 0, kInfinity, name + "elongation");
     check_pattern(material.pattern, name + "pattern.");
     for (std::size_t k = 0; k < material.stronger.size(); ++k) {
-      const StrongerImpact& stronger = material.stronger[k];
+      const ImpactResponse& stronger = material.stronger[k];
       const std::string of = name + item("stronger", k) + ".";
       need_number(stronger.energy_J, k > 0 ? material.stronger[k - 1].energy_J : 0, kInfinity,
                   of + "energy_J");
       need_number(stronger.impact_radius_m, 0, kInfinity, of + "impact_radius_m");
       check_pattern(stronger.pattern, of + "pattern.");
     }
-    const Crumbling& crumbling = material.crumbling;
-    need_number(crumbling.particles_per_m2, 0, kFar, name + "crumbling.particles_per_m2");
+    const DebrisEmission& crumbling = material.crumbling;
+    need_number(crumbling.particles_per_m2, 0, kMaxNumber, name + "crumbling.particles_per_m2");
     need_number(crumbling.debris_ratio, 0, 1, name + "crumbling.debris_ratio");
-    need_number(crumbling.debris_smallest_m, 1e-6, kFar, name + "crumbling.debris_smallest_m");
-    need_number(crumbling.debris_largest_m, crumbling.debris_smallest_m, kFar,
+    need_number(crumbling.debris_smallest_m, 1e-6, kMaxNumber,
+                name + "crumbling.debris_smallest_m");
+    need_number(crumbling.debris_largest_m, crumbling.debris_smallest_m, kMaxNumber,
                 name + "crumbling.debris_largest_m");
-    need_number(crumbling.dust_kg_m2, 0, kFar, name + "crumbling.dust_kg_m2");
-    need_number(crumbling.dust_settling_m_s, 0, kFar, name + "crumbling.dust_settling_m_s");
+    need_number(crumbling.dust_kg_m2, 0, kMaxNumber, name + "crumbling.dust_kg_m2");
+    need_number(crumbling.dust_settling_m_s, 0, kMaxNumber, name + "crumbling.dust_settling_m_s");
   }
 
   void check_pattern(const PatternSpec& pattern, const std::string& name) const {
-    constexpr int kMostCells = 100000;
-    need_number(pattern.cells, 1, kMostCells, name + "cells");
-    need_number(pattern.rings, 1, kMostCells, name + "rings");
-    need_number(pattern.spokes, 1, kMostCells, name + "spokes");
-    need_number(pattern.colors, 0, kMostCells, name + "colors");
-    need_number(pattern.falloff, 0, kFar, name + "falloff");
+    constexpr int kMaxCells = 100000;
+    need_number(pattern.cells, 1, kMaxCells, name + "cells");
+    need_number(pattern.rings, 1, kMaxCells, name + "rings");
+    need_number(pattern.spokes, 1, kMaxCells, name + "spokes");
+    need_number(pattern.colors, 0, kMaxCells, name + "colors");
+    need_number(pattern.falloff, 0, kMaxNumber, name + "falloff");
     need_number(pattern.jitter, 0, 1, name + "jitter");
     if (pattern.kind == PatternSpec::Kind::kFile && pattern.file.empty())
       refuse(name + "file is empty", "the name of a file");
     if (pattern.kind != PatternSpec::Kind::kBrick) return;
-    for (const double side_m : pattern.brick_m) need_number(side_m, 1e-6, kFar, name + "brick_m");
+    for (const double side_m : pattern.brick_m)
+      need_number(side_m, 1e-6, kMaxNumber, name + "brick_m");
   }
 
   void need_material(MaterialIndex index, const std::string& name) const {
@@ -176,7 +179,7 @@ class SceneCheck {
   }
 
   void check_ball(const Ball& ball, const std::string& name) const {
-    need_number(ball.radius_m, 1e-9, kFar, name + ".radius_m");
+    need_number(ball.radius_m, 1e-9, kMaxNumber, name + ".radius_m");
     need_material(ball.material, name);
     need_finite(ball.center_W, name + ".center_W");
     need_finite(ball.velocity_W, name + ".velocity_W");
@@ -225,7 +228,7 @@ class SceneCheck {
              "one of the " + std::to_string(count) + " that it may be of");
   }
 
-  /// Returns true if the box holds the centroid of an anchored convex of a solid that stands.
+  /// Returns true if the box contains the centroid of an anchored convex of a solid.
   bool has_anchors(const Box& box_W) const {
     return std::ranges::any_of(scene_.solids, [&](const Solid& solid) {
       for (std::size_t c = 0; c < solid.compound.convexes.size(); ++c) {
@@ -241,7 +244,7 @@ class SceneCheck {
   template <class Act>
   void need_times(const std::vector<Act>& acts, const char* list) const {
     for (std::size_t i = 0; i < acts.size(); ++i) {
-      need_number(acts[i].time_s, -kLong_s, kLong_s, item(list, i) + ".time_s");
+      need_number(acts[i].time_s, -kMaxTime_s, kMaxTime_s, item(list, i) + ".time_s");
       if (i > 0 && acts[i].time_s < acts[i - 1].time_s)
         refuse(item(list, i) + " comes before " + item(list, i - 1), "an order of time");
     }
@@ -276,9 +279,9 @@ class SceneCheck {
 
   void check_blast(const Blast& blast, const std::string& name) const {
     need_finite(blast.center_W, name + ".center_W");
-    need_number(blast.radius_m, 1e-9, kFar, name + ".radius_m");
+    need_number(blast.radius_m, 1e-9, kMaxNumber, name + ".radius_m");
     need_number(blast.impulse_Ns_m2, 0, 1e15, name + ".impulse_Ns_m2");
-    if (blast.tnt_kg) need_number(*blast.tnt_kg, 1e-9, kFar, name + ".tnt_kg");
+    if (blast.tnt_kg) need_number(*blast.tnt_kg, 1e-9, kMaxNumber, name + ".tnt_kg");
   }
 
   void check_drive(const Drive& drive, const std::string& name) const {
@@ -298,12 +301,12 @@ class SceneCheck {
     need_finite(move.pivot_W.value_or(Vec3::Zero()), name + ".pivot_W");
     double last_s = 0;
     for (const PathKey& key : move.path.keys) {
-      if (!(key.time_s > last_s && key.time_s <= kLong_s))
+      if (!(key.time_s > last_s && key.time_s <= kMaxTime_s))
         refuse(name + ".path has a key at " + text_of(key.time_s) + " s",
                "times that ascend from 0");
       last_s = key.time_s;
       need_finite(key.shift_W, name + ".path, shift_W");
-      need_finite(key.turn_W, name + ".path, turn_W");
+      need_finite(key.rotation_W, name + ".path, rotation_W");
     }
   }
 

@@ -1,13 +1,12 @@
-// Whether a scene can be run at all: what is made by hand is looked at before anything relies on
-// it.
+// Validation of a scene before a run.
 #pragma once
 
 #include "engine/model/scene.h"
 
 namespace sunder {
 
-/// Throws InputError that names the first member of the scene that no run can begin with, says what
-/// it is and what is allowed.
+/// Throws InputError, with the member's name, its value and the allowed values, for the first
+/// invalid member of the scene.
 void check_scene(const Scene& scene);
 
 }  // namespace sunder

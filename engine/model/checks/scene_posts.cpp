@@ -1,4 +1,4 @@
-// Read first: posts_in().
+// Begin with find_posts().
 #include "engine/model/checks/scene_posts.h"
 
 #include <algorithm>
@@ -15,46 +15,47 @@
 namespace sunder {
 namespace {
 
-constexpr double kSlender = 4;            // height over least width of a post's box
-constexpr double kLeastSlenderness = 30;  // effective length over radius of gyration
-constexpr double kTouch = 0.02;      // of the smaller width: gap across which a body still rests
-constexpr double kUpright = 1e-3;    // greatest part of gravity across the axis of posts
-constexpr std::size_t kLevels = 32;  // sections along a post
-constexpr int kIterations = 12;      // each divides the error in the shape by 9, for a prism
-// Own weight, spread along a post, counts as this part of it on the head: 9.87/4/7.84 with a free
+constexpr double kMinHeightToWidth = 4;  // least height over narrowest width of a post's box
+constexpr double kMinSlenderness = 30;   // least effective length over radius of gyration
+constexpr double kMaxGap = 0.02;  // largest gap, over the smaller width, across which a body rests
+constexpr double kMaxObliquity = 1e-3;  // largest share of gravity across the axis of posts
+constexpr std::size_t kLevels = 32;     // number of sections along a post
+constexpr int kIterations = 12;         // each divides the error of the shape by 9, for a prism
+// Load on the head that is equivalent to self-weight, over the self-weight: 9.87/4/7.84 with a free
 // head, 9.87/18.6 with a held one (Timoshenko and Gere, chapter 2).
-constexpr double kOwnWeightFree = 0.315, kOwnWeightHeld = 0.53;
+constexpr double kSelfWeightFree = 0.315, kSelfWeightHeld = 0.53;
 
-/// The axis that gravity goes along, and the two across.
+/// The axis of gravity, and the two across it.
 struct Axes {
   Eigen::Index up = 1, a = 2, b = 0;
-  double sign = 1;  ///< Of the direction up.
+  double sign = 1;  ///< Sign of the upward direction.
 };
 
-/// None if gravity is absent or oblique.
+/// Returns nothing if gravity is zero or oblique.
 std::optional<Axes> axes_of(const Scene& scene) {
   if (scene.gravity_W.isZero()) return {};
   Axes axes;
   const double most = scene.gravity_W.cwiseAbs().maxCoeff(&axes.up);
   axes.a = (axes.up + 1) % 3, axes.b = (axes.up + 2) % 3;
   const double across = std::hypot(scene.gravity_W[axes.a], scene.gravity_W[axes.b]);
-  if (across > kUpright * most) return {};
+  if (across > kMaxObliquity * most) return {};
   axes.sign = scene.gravity_W[axes.up] < 0 ? 1 : -1;
   return axes;
 }
 
-/// A solid or a ball, its box in coordinates (across, across, up).
+/// A solid or a ball, in coordinates (across, across, up).
 struct Body {
   Box box;
   double mass_kg = 0;
-  Vec2 center = Vec2::Zero();  ///< Of mass, across.
-  bool held = false;           ///< By the world or by a script: it passes no weight on.
+  Vec2 center = Vec2::Zero();  ///< Centre of mass, across.
+  /// True if the world or a script holds it: it transfers no weight to supports.
+  bool held = false;
   bool slender = false;
   std::vector<std::uint32_t> below, above;
-  std::vector<Vec2> places;  ///< Where it rests on those below, across.
+  std::vector<Vec2> places;  ///< Points of support on the bodies in `below`, across.
 };
 
-Vec3 turned(const Vec3& point_W, const Axes& axes) {
+Vec3 to_axes(const Vec3& point_W, const Axes& axes) {
   return {point_W[axes.a], point_W[axes.b], axes.sign * point_W[axes.up]};
 }
 
@@ -66,38 +67,37 @@ std::vector<Body> bodies_of(const Scene& scene, const Axes& axes) {
     Body& body = bodies.emplace_back();
     for (const ConvexPtr& convex : solid.compound.convexes)
       for (const Vec3& corner : convex->polyhedron.vertices)
-        body.box.extend(turned(solid.X_WR * corner, axes));
-    const Weight weight = weigh(solid.compound, scene.materials);
+        body.box.extend(to_axes(solid.X_WR * corner, axes));
+    const CompoundMass weight = mass_of(solid.compound, scene.materials);
     body.mass_kg = weight.mass_kg;
-    body.center = turned(solid.X_WR * weight.com_R, axes).head<2>();
+    body.center = to_axes(solid.X_WR * weight.com_R, axes).head<2>();
     body.held = solid.compound.is_anchored();
-    body.slender = body.box.extent().z() >= kSlender * narrower(body.box);
+    body.slender = body.box.extent().z() >= kMinHeightToWidth * narrower(body.box);
   }
   for (const Ball& ball : scene.balls) {
     Body& body = bodies.emplace_back();
-    const Vec3 center = turned(ball.center_W, axes), reach = Vec3::Constant(ball.radius_m);
+    const Vec3 center = to_axes(ball.center_W, axes), reach = Vec3::Constant(ball.radius_m);
     body.box = {center - reach, center + reach};
     body.mass_kg = ball_mass_kg(ball, scene.materials);
     body.center = center.head<2>();
   }
   for (const Move& move : scene.moves)
     for (const std::uint32_t root : move.roots) bodies[root].held = true;
-  for (const Joint& joint : scene.joints) {  // what the world holds by a joint
+  for (const Joint& joint : scene.joints) {  // bodies jointed to the world
     if (!joint.b && joint.a) bodies[*joint.a].held = true;
     if (!joint.a && joint.b) bodies[*joint.b].held = true;
   }
   return bodies;
 }
 
-/// The shares of a rigid body's weight that springs of equal stiffness at `places` bear: the least
-/// squares under which the weight is in balance. A spring that would pull bears nothing.
+/// Returns the fractions of a rigid body's weight borne by springs of equal stiffness at `places`:
+/// the least-squares distribution in equilibrium. A spring in tension bears nothing.
 std::vector<double> shares_of(const Vec2& center, const std::vector<Vec2>& places) {
   const auto count = static_cast<double>(places.size());
   const Vec2 mean = std::accumulate(places.begin(), places.end(), Vec2(Vec2::Zero())) / count;
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (const Vec2& place : places) spread += (place - mean) * (place - mean).transpose();
-  // Places in one line leave the spread singular; a little more makes it regular, and matters to
-  // no place in the line.
+  // Points on one line make the matrix singular; the small addition makes it regular.
   const double more = 1e-9 * spread.trace() + 1e-12;
   const double aa = spread(0, 0) + more, bb = spread(1, 1) + more, ab = spread(0, 1);
   const Vec2 arm = center - mean;
@@ -113,7 +113,7 @@ std::vector<double> shares_of(const Vec2& center, const std::vector<Vec2>& place
   return shares;
 }
 
-/// Fills in what each body rests on.
+/// Sets `below`, `above` and `places` of each body.
 void find_supports(std::vector<Body>& bodies) {
   std::vector<Box> boxes;
   for (const Body& body : bodies) boxes.push_back(body.box);
@@ -122,7 +122,7 @@ void find_supports(std::vector<Body>& bodies) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     Box foot = body.box;
-    const double bottom = body.box.min.z(), reach = kTouch * narrower(body.box);
+    const double bottom = body.box.min.z(), reach = kMaxGap * narrower(body.box);
     foot.min.z() = bottom - reach, foot.max.z() = bottom + reach;
     hits.clear();
     tree.overlaps(foot, hits);
@@ -130,7 +130,7 @@ void find_supports(std::vector<Body>& bodies) {
       const Box& lower = bodies[other].box;
       const Vec2 min = body.box.min.cwiseMax(lower.min).head<2>();
       const Vec2 max = body.box.max.cwiseMin(lower.max).head<2>();
-      const double gap = kTouch * std::min(narrower(body.box), narrower(lower));
+      const double gap = kMaxGap * std::min(narrower(body.box), narrower(lower));
       if (other == i || std::abs(bottom - lower.max.z()) > gap) continue;
       if ((max - min).minCoeff() <= 0) continue;
       body.below.push_back(other);
@@ -140,7 +140,7 @@ void find_supports(std::vector<Body>& bodies) {
   }
 }
 
-/// Loads on the bodies' tops, from the highest body down.
+/// Returns the loads on the bodies' tops, computed from the highest body down.
 std::vector<double> loads_kg(const std::vector<Body>& bodies) {
   std::vector<std::uint32_t> order(bodies.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -148,7 +148,7 @@ std::vector<double> loads_kg(const std::vector<Body>& bodies) {
     return bodies[a].box.min.z() > bodies[b].box.min.z();
   });
   std::vector<double> loads(bodies.size(), 0);
-  std::vector<Vec2> moments(bodies.size(), Vec2::Zero());  // kg·m, of the loads
+  std::vector<Vec2> moments(bodies.size(), Vec2::Zero());  // moments of the loads, in kg m
   for (const std::uint32_t i : order) {
     const Body& body = bodies[i];
     if (body.held || body.below.empty()) continue;
@@ -163,13 +163,13 @@ std::vector<double> loads_kg(const std::vector<Body>& bodies) {
   return loads;
 }
 
-/// Integrals over a plane section: of density, and of Young's modulus with its moments.
+/// Integrals over a cross-section: of density, and of Young's modulus with its moments.
 struct Section {
   double mass_kg_m = 0, stiffness_N = 0;
-  Vec2 first = Vec2::Zero();                         ///< N·m
-  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();  ///< N·m²
+  Vec2 first = Vec2::Zero();                         ///< In N m.
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();  ///< In N m².
 
-  /// Adds the polygon in which a convex meets a plane across, by its edges (Green's theorem).
+  /// Adds the polygon in which a convex meets a horizontal plane, by its edges (Green's theorem).
   /// `sign` is that of a ghost.
   void add(const Convex& convex, const Material& material, double sign, const Pose& X_WR,
            const Axes& axes, double level) {
@@ -179,18 +179,18 @@ struct Section {
       std::array<Vec2, 2> ends;
       std::size_t found = 0;
       for (std::size_t i = 0; i < corners.size() && found < 2; ++i) {
-        const Vec3 p = turned(X_WR * hull.vertices[corners[i]], axes);
-        const Vec3 q = turned(X_WR * hull.vertices[corners[(i + 1) % corners.size()]], axes);
+        const Vec3 p = to_axes(X_WR * hull.vertices[corners[i]], axes);
+        const Vec3 q = to_axes(X_WR * hull.vertices[corners[(i + 1) % corners.size()]], axes);
         if ((p.z() < level) == (q.z() < level)) continue;
         ends[found++] = (p + (level - p.z()) / (q.z() - p.z()) * (q - p)).head<2>();
       }
       if (found == 2)
-        add_edge(ends, turned(X_WR.rotation * hull.faces[f].plane.normal, axes),
+        add_edge(ends, to_axes(X_WR.rotation * hull.faces[f].plane.normal, axes),
                  sign * material.youngs_Pa, sign * material.density_kg_m3);
     }
   }
 
-  /// The least bending stiffness EI about the centroid; in planar scenes that in the plane.
+  /// Returns the least bending stiffness EI about the centroid; in planar scenes that in the plane.
   double bending_Nm2(bool planar, const Axes& axes) const {
     const Eigen::Matrix2d central = second - first * first.transpose() / stiffness_N;
     if (planar) return axes.a == 2 ? central(1, 1) : central(0, 0);
@@ -214,16 +214,17 @@ struct Section {
   }
 };
 
-/// A post as a column of varying section.
+/// A post as a column of variable section.
 struct Column {
   std::array<double, kLevels> flexibility_1_Nm2{};  ///< 1/EI from the foot up.
   double height_m = 0, weight_kg = 0;
-  double gyration_m = 0;  ///< Least radius, mean over the levels.
+  double gyration_m = 0;  ///< Least radius of gyration, averaged over the levels.
 
-  /// The critical load of the column, clamped at its foot and free at its head, without own weight.
+  /// Returns the critical load of the column, clamped at its foot and free at its head, without
+  /// self-weight.
   ///
   /// The moment at a level is the load times u, the deflection of the head less that of the level.
-  /// Integrating the curvature that it makes gives u again over the load, so that iterating finds
+  /// Integrating the curvature due to the moment gives u over the load, so iteration converges to
   /// the buckled shape (Vianello's method).
   double critical_N() const {
     const double step_m = height_m / kLevels;
@@ -252,7 +253,7 @@ struct Column {
   }
 };
 
-/// None where a level goes through no material.
+/// Returns nothing if a section is empty.
 std::optional<Column> column_of(const Scene& scene, const Solid& solid, const Axes& axes,
                                 double foot_m, double height_m) {
   Column column;
@@ -276,7 +277,7 @@ std::optional<Column> column_of(const Scene& scene, const Solid& solid, const Ax
   return column;
 }
 
-/// K of a post: see Post.
+/// Returns K of a post, as defined at Post.
 double length_factor_of(const std::vector<Body>& bodies, const Body& post) {
   double factor = 2;
   for (const std::uint32_t upper : post.above) {
@@ -289,18 +290,18 @@ double length_factor_of(const std::vector<Body>& bodies, const Body& post) {
   return factor;
 }
 
-/// The top of what the world holds of a solid: its foundation; else its foot.
-double clamped_at(const Solid& solid, const Body& body, const Axes& axes) {
+/// Returns the top of the anchored part of a solid, or else the bottom of the solid.
+double clamp_height(const Solid& solid, const Body& body, const Axes& axes) {
   double top = body.box.min.z();
   for (std::size_t i = 0; i < solid.compound.convexes.size(); ++i) {
     if (solid.compound.anchored[i] == 0) continue;
     for (const Vec3& corner : solid.compound.convexes[i]->polyhedron.vertices)
-      top = std::max(top, turned(solid.X_WR * corner, axes).z());
+      top = std::max(top, to_axes(solid.X_WR * corner, axes).z());
   }
   return top;
 }
 
-/// True if a joint holds the post to anything but a body that rests on it.
+/// True if the post is jointed to anything but a body that rests on it.
 bool is_held_by_joint(const Scene& scene, const Body& post, std::uint32_t index) {
   return std::ranges::any_of(scene.joints, [&](const Joint& joint) {
     if (joint.a != index && joint.b != index) return false;
@@ -309,15 +310,15 @@ bool is_held_by_joint(const Scene& scene, const Body& post, std::uint32_t index)
   });
 }
 
-bool stands(const Scene& scene, const Body& body, const Axes& axes) {
+bool is_supported(const Scene& scene, const Body& body, const Axes& axes) {
   if (body.held || !body.below.empty() || !scene.ground.meshes.empty()) return true;
-  const double gap = kTouch * narrower(body.box);
+  const double gap = kMaxGap * narrower(body.box);
   return axes.up == 1 && axes.sign > 0 && std::abs(body.box.min.z() - scene.ground.height_m) <= gap;
 }
 
 }  // namespace
 
-std::vector<Post> posts_in(const Scene& scene) {
+std::vector<Post> find_posts(const Scene& scene) {
   std::vector<Post> posts;
   const std::optional<Axes> axes = axes_of(scene);
   if (!axes || scene.solids.empty()) return posts;
@@ -329,23 +330,24 @@ std::vector<Post> posts_in(const Scene& scene) {
   for (std::uint32_t i = 0; i < scene.solids.size(); ++i) {
     const Solid& solid = scene.solids[i];
     const Body& body = bodies[i];
-    if (!body.slender || !stands(scene, body, *axes) || is_held_by_joint(scene, body, i)) continue;
-    const double foot_m = clamped_at(solid, body, *axes);
+    if (!body.slender || !is_supported(scene, body, *axes) || is_held_by_joint(scene, body, i))
+      continue;
+    const double foot_m = clamp_height(solid, body, *axes);
     const double height_m = body.box.max.z() - foot_m;
-    if (height_m < kSlender * narrower(body.box)) continue;
+    if (height_m < kMinHeightToWidth * narrower(body.box)) continue;
     const double factor = length_factor_of(bodies, body);
     const auto column = column_of(scene, solid, *axes, foot_m, height_m);
-    if (!column || factor * height_m < kLeastSlenderness * column->gyration_m) continue;
+    if (!column || factor * height_m < kMinSlenderness * column->gyration_m) continue;
     const double euler_kg = column->critical_N() * (2 / factor) * (2 / factor) / g;
-    const double own = factor == 2 ? kOwnWeightFree : kOwnWeightHeld;
+    const double self_weight = factor == 2 ? kSelfWeightFree : kSelfWeightHeld;
     posts.push_back({solid.name, height_m, loads[i], column->weight_kg,
-                     std::max(0.0, euler_kg - own * column->weight_kg), factor});
+                     std::max(0.0, euler_kg - self_weight * column->weight_kg), factor});
   }
   return posts;
 }
 
 std::string post_warning(const Scene& scene) {
-  const std::vector<Post> posts = posts_in(scene);
+  const std::vector<Post> posts = find_posts(scene);
   const Post* worst = nullptr;
   int count = 0;
   for (const Post& post : posts) {

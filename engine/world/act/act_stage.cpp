@@ -11,9 +11,9 @@
 namespace sunder {
 namespace {
 
-constexpr std::uint32_t kRoom = 16;  // one part in so many bodies is kept free for breaks
+constexpr std::uint32_t kFreeShare = 16;  // 1/16 of the limit of bodies is kept free for breaks
 
-/// The elements that have become due since the last step.
+/// Returns the actions that have become due since the last step.
 template <class Act>
 std::span<const Act> take_due(const Clock& clock, const std::vector<Act>& acts, std::size_t& next) {
   const std::size_t first = next;
@@ -23,8 +23,8 @@ std::span<const Act> take_due(const Clock& clock, const std::vector<Act>& acts, 
 
 std::uint32_t newest(const World& world) { return world.actors[world.actors.size() - 1].key; }
 
-/// A shot ball on its rope, or on its chain, which appears with it.
-void hang(World& world, const Shot& shot) {
+/// Adds a shot ball on a rope, or on a chain, which is added with it.
+void add_hanging_ball(World& world, const Shot& shot) {
   std::optional<std::uint32_t> above;
   Joint joint;
   if (shot.links.empty()) {
@@ -54,7 +54,7 @@ void hang(World& world, const Shot& shot) {
 void shoot(World& world, const Shot& shot) {
   const std::uint32_t first_key = world.actors.next_key();
   if (shot.hangs_from_W) {
-    hang(world, shot);
+    add_hanging_ball(world, shot);
   } else {
     add_ball(world, shot.ball);
   }
@@ -62,23 +62,23 @@ void shoot(World& world, const Shot& shot) {
   const auto number = static_cast<std::size_t>(&shot - scene.shots.data());
   for (Actor& actor : world.actors) {
     if (actor.key < first_key) continue;
-    world.ledger.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
+    world.conservation.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
     actor.name = static_cast<std::uint32_t>(scene.solids.size() + scene.balls.size() + number);
   }
 }
 
-void drop(World& world, const std::vector<std::size_t>& gone) {
+void remove_actors(World& world, const std::vector<std::size_t>& gone) {
   std::vector<BodyId> bodies;
   for (const std::size_t i : gone) {
     bodies.push_back(world.actors[i].body);
-    world.ledger.report.joints_lost += world.joints.cut(*world.physics, world.actors[i].key);
+    world.conservation.report.joints_lost += world.joints.cut(*world.physics, world.actors[i].key);
   }
   world.physics->replace(bodies, {});
   for (auto i = gone.rbegin(); i != gone.rend(); ++i) world.actors.erase(*i);
 }
 
-/// What has lost an anchor goes on as it was, on its other anchors or on none.
-void loosen(World& world, const Box& region_W) {
+/// Removes the anchors in a region; their solids stay held by other anchors, or become free.
+void remove_anchors(World& world, const Box& region_W) {
   const BodyStates states = world.physics->states();
   std::vector<std::uint32_t> loosened;
   for (Actor& actor : world.actors) {
@@ -96,13 +96,13 @@ void loosen(World& world, const Box& region_W) {
   }
   for (const std::uint32_t key : loosened) {
     BreakEdit nothing_more;
-    carry_out(world, key, nothing_more);
+    apply_break(world, key, nothing_more);
   }
 }
 
 void remove(World& world, const Removal& removal) {
   if (removal.roots.empty()) {
-    loosen(world, removal.anchors_W);
+    remove_anchors(world, removal.anchors_W);
     return;
   }
   std::vector<std::size_t> gone;
@@ -111,18 +111,18 @@ void remove(World& world, const Removal& removal) {
   }
   for (const std::size_t i : gone) {
     const Actor& actor = world.actors[i];
-    world.ledger.removed_mass_kg += actor.weight.mass_kg;
-    world.ledger.report.energy.script -= kinetic_J(actor, world.physics->state(actor.body));
+    world.conservation.removed_mass_kg += actor.weight.mass_kg;
+    world.conservation.report.energy.script -= kinetic_J(actor, world.physics->state(actor.body));
   }
-  drop(world, gone);
+  remove_actors(world, gone);
 }
 
-/// The smallest fragments at rest become debris once bodies are more than the scene wants.
+/// Turns the smallest fragments at rest into debris if there are more bodies than the limit allows.
 void age(World& world) {
   const Limits& limits = world.scene.limits;
   const std::uint32_t most =
       limits.ageing > 0 ? std::min(limits.ageing, limits.bodies) : limits.bodies;
-  if (world.actors.size() <= most - most / kRoom) return;
+  if (world.actors.size() <= most - most / kFreeShare) return;
   const BodyStates states = world.physics->states();
   std::vector<std::size_t> resting;
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
@@ -130,47 +130,47 @@ void age(World& world) {
     const bool fragment = actor.key != actor.root_key && !actor.structure.empty();
     if (fragment && !actor.is_static && states[actor.body].asleep) resting.push_back(i);
   }
-  // Ascending by key already: a stable order of equals.
+  // Ascending by key already: equal volumes have a stable order.
   std::ranges::stable_sort(resting, {}, [&](std::size_t i) { return world.actors[i].volume_m3; });
-  // Some more than must go, so that it is not done in every step.
-  const std::size_t wanted = world.actors.size() - (most - 2 * (most / kRoom));
+  // Removes more than needed, so that not every step has to.
+  const std::size_t wanted = world.actors.size() - (most - 2 * (most / kFreeShare));
   resting.resize(std::min(resting.size(), wanted));
   std::ranges::sort(resting);
   for (const std::size_t i : resting) {
     const Actor& actor = world.actors[i];
     note_chip(world, actor.structure.compound(), motion_of(actor, states[actor.body]));
-    world.ledger.debris_mass_kg += actor.weight.mass_kg;
-    ++world.ledger.report.aged;
+    world.conservation.debris_mass_kg += actor.weight.mass_kg;
+    ++world.conservation.report.aged;
   }
-  if (!resting.empty()) drop(world, resting);
+  if (!resting.empty()) remove_actors(world, resting);
 }
 
-Vec3 no_more_than(double most, const Vec3& impulse) {
+Vec3 limit_length(double most, const Vec3& impulse) {
   return impulse.norm() > most ? Vec3(impulse * (most / impulse.norm())) : impulse;
 }
 
-void drive_by(World& world, const Drive& drive) {
+void apply_drive(World& world, const Drive& drive) {
   const double dt_s = world.clock.dt_s;
   for (const std::uint32_t root : drive.roots) {
     const Actor* actor = world.actors.find(root);
     if (!actor || actor->is_static) continue;
     const BodyState state = world.physics->state(actor->body);
     const auto push = [&](const Vec3& impulse, const Vec3& arm) {
-      world.ledger.report.energy.drives +=
+      world.conservation.report.energy.drives +=
           push_actor(world, *actor, impulse, state.X_WB.position + arm);
     };
     if (drive.velocity_W) {
       const Vec3 missing = *drive.velocity_W - state.velocity_W;
-      const Vec3 impulse = no_more_than(drive.force_N * dt_s, actor->weight.mass_kg * missing);
+      const Vec3 impulse = limit_length(drive.force_N * dt_s, actor->weight.mass_kg * missing);
       if (impulse.norm() > 0) push(impulse, Vec3::Zero());
     }
     if (drive.angular_velocity_W) {
       const Quat& q = state.X_WB.rotation;
       const Vec3 missing = *drive.angular_velocity_W - state.angular_velocity_W;
-      const Vec3 turn = no_more_than(drive.torque_Nm * dt_s,
+      const Vec3 turn = limit_length(drive.torque_Nm * dt_s,
                                      q * (actor->weight.inertia_R * (q.conjugate() * missing)));
       if (!(turn.norm() > 0)) continue;
-      const Vec3 arm = turn.unitOrthogonal();  // a couple: impulse and counterpart, 1 m apart
+      const Vec3 arm = turn.unitOrthogonal();  // a couple: two opposite impulses 1 m apart
       push(turn.cross(arm), 0.5 * arm);
       push(-turn.cross(arm), -0.5 * arm);
     }
@@ -179,32 +179,34 @@ void drive_by(World& world, const Drive& drive) {
 
 }  // namespace
 
-std::vector<Impact> ActStage::run(World& world) {
+std::vector<ActorImpact> ActStage::run(World& world) {
   for (const Shot& shot : take_due(world.clock, world.scene.shots, next_shot_)) shoot(world, shot);
   for (const Removal& removal : take_due(world.clock, world.scene.removals, next_removal_)) {
     remove(world, removal);
   }
   for (const Blast& blast : take_due(world.clock, world.scene.blasts, next_blast_)) {
-    bursts_.push_back(light(world, blast));
+    blasts_.push_back(start_blast(world, blast));
   }
-  std::vector<Impact> impacts;
-  for (Burst& burst : bursts_) {
-    for (Impact& impact : blows_of(world, burst)) impacts.push_back(impact);
+  std::vector<ActorImpact> impacts;
+  for (ActiveBlast& active : blasts_) {
+    for (ActorImpact& impact : find_blast_impacts(world, active)) impacts.push_back(impact);
   }
-  move_on(world);
+  update_moves(world);
   age(world);
   return impacts;
 }
 
 void ActStage::push(World& world) {
-  const auto pushes = [&](const Burst& burst) { return world.clock.is_due(burst.pushes_at_s); };
-  for (const Burst& burst : bursts_) {
-    if (pushes(burst)) push_by(world, burst.blast);
+  const auto impulse_is_due = [&](const ActiveBlast& active) {
+    return world.clock.is_due(active.impulse_time_s);
+  };
+  for (const ActiveBlast& active : blasts_) {
+    if (impulse_is_due(active)) apply_blast_impulses(world, active.blast);
   }
-  std::erase_if(bursts_, pushes);
+  std::erase_if(blasts_, impulse_is_due);
   for (const Drive& drive : world.scene.drives) {
     const bool on = world.clock.is_due(drive.time_s) && !world.clock.is_due(drive.until_s);
-    if (on) drive_by(world, drive);
+    if (on) apply_drive(world, drive);
   }
 }
 

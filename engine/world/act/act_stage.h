@@ -1,8 +1,8 @@
-// Stage `act`: what the script does to the world at this time; and making room when it is full.
+// Stage `act`: carries out the scene's script, and reduces the number of bodies near its limit.
 // Internal to engine/world.
 //
-// Read first: ActStage::run() and push(). Acts come before contacts are found, pushes after breaks
-// were decided, so that what a blast breaks off is what it blows away.
+// Read first: ActStage::run() and push(). Actions come before contacts are found, impulses after
+// breaks, so that a blast's impulse acts on the pieces it has broken off.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +17,21 @@ namespace sunder {
 
 class ActStage {
  public:
-  /// Brings in, takes away, moves on and lights what is due; when bodies are too many, the smallest
-  /// at rest become debris. The answer is what blasts do to what they might break now.
-  std::vector<Impact> run(World& world);
-  /// After breaks: what blasts and drives push.
+  /// Carries out shots, removals, moves and blasts that are due; near the limit of bodies the
+  /// smallest fragments at rest become debris. Returns the impacts of blasts on actors that they
+  /// may break.
+  std::vector<ActorImpact> run(World& world);
+  /// Applies the impulses of blasts and drives, after breaks.
   void push(World& world);
 
-  /// Whether a blast still breaks, and has yet to push what it broke.
-  bool blasts() const { return !bursts_.empty(); }
+  /// True if a blast has not applied its impulse yet.
+  bool any_blast() const { return !blasts_.empty(); }
 
   std::span<const Shot> shots_to_come(const Scene& scene) const;
 
  private:
   std::size_t next_shot_ = 0, next_removal_ = 0, next_blast_ = 0;
-  std::vector<Burst> bursts_;
+  std::vector<ActiveBlast> blasts_;
 };
 
 }  // namespace sunder

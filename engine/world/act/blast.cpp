@@ -1,4 +1,4 @@
-// Read first: push_on().
+// Read first: impulse_on().
 #include "engine/world/act/blast.h"
 
 #include <algorithm>
@@ -15,39 +15,39 @@
 namespace sunder {
 namespace {
 
-constexpr double kBreaking_s = 0.05;  // for so long a blast breaks before it pushes
-constexpr double kPartOfWay = 0.35;   // longest edge of a triangle of a face, over its distance
-constexpr int kMostHalvings = 4;      // of a face's edges
-constexpr double kTriedPart = 0.6;    // of the impact radius around a tried place is tried, too
+constexpr double kBreakDuration_s = 0.05;  // time of breaking before the impulse
+constexpr double kMaxEdgeShare = 0.35;     // largest edge of a triangle, over its distance
+constexpr int kMostHalvings = 4;           // of a triangle's edges
+constexpr double kTriedRadiusShare = 0.6;  // radius around a tried point, over the impact radius
 
-/// What a blast does to a part of an actor.
-struct Push {
+/// Impulse of a blast on a part of an actor.
+struct BlastImpulse {
   Vec3 impulse_W = Vec3::Zero();
-  Vec3 weighted_point_W = Vec3::Zero();  ///< Times the impulses' sizes.
-  double weight_Ns = 0;
+  Vec3 weighted_point_W = Vec3::Zero();  ///< Sum of points times impulse sizes.
+  double sum_Ns = 0;                     ///< Sum of impulse sizes.
 
   void add(const Vec3& impulse, const Vec3& point_W) {
     const double size = impulse.norm();
     impulse_W += impulse;
     weighted_point_W += size * point_W;
-    weight_Ns += size;
+    sum_Ns += size;
   }
-  Vec3 point_W() const { return weighted_point_W / weight_Ns; }
+  Vec3 point_W() const { return weighted_point_W / sum_Ns; }
 };
 
-/// Adds what the wave of a charge gives to a triangle, counter-clockwise seen from outside: an
-/// impulse along its inward normal. Triangles that are large for their distance are divided.
-void push_triangle(Push& push, const Blast& blast, const Cover& cover, const Actor& actor,
-                   ConvexSlot slot, const std::array<Vec3, 3>& corners_W, int halvings = 0) {
+/// Adds the impulse of a charge's wave on a triangle (counter-clockwise from outside) along the
+/// inward normal. Triangles that are large for their distance are subdivided.
+void add_triangle(BlastImpulse& impulse, const Blast& blast, const Cover& cover, const Actor& actor,
+                  ConvexSlot slot, const std::array<Vec3, 3>& corners_W, int halvings = 0) {
   const auto& [a, b, c] = corners_W;
   const Vec3 middle_W = (a + b + c) / 3;
   const double distance_m = (middle_W - blast.center_W).norm();
   const double edge_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  if (edge_m > kPartOfWay * distance_m && halvings < kMostHalvings) {
+  if (edge_m > kMaxEdgeShare * distance_m && halvings < kMostHalvings) {
     const Vec3 ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
     for (const std::array<Vec3, 3>& part : {std::array{a, ab, ca}, std::array{ab, b, bc},
                                             std::array{ca, bc, c}, std::array{ab, bc, ca}}) {
-      push_triangle(push, blast, cover, actor, slot, part, halvings + 1);
+      add_triangle(impulse, blast, cover, actor, slot, part, halvings + 1);
     }
     return;
   }
@@ -56,21 +56,21 @@ void push_triangle(Push& push, const Blast& blast, const Cover& cover, const Act
   if (facing <= 0 || cover.covers(middle_W, actor.key, slot)) return;
   const WaveImpulse wave = wave_impulse(*blast.tnt_kg, blast.burst, distance_m);
   const double cosine = std::min(1.0, facing / (double_area.norm() * distance_m));
-  push.add(-0.5 * wave.at_incidence(cosine) * double_area, middle_W);
+  impulse.add(-0.5 * wave.at_incidence(cosine) * double_area, middle_W);
 }
 
-/// Adds what the wave of a charge gives to a face.
-void push_face(Push& push, const Blast& blast, const Cover& cover, const Actor& actor,
-               ConvexSlot slot, std::size_t face, const Pose& X_WR) {
+/// Adds the impulse of a charge's wave on a face.
+void add_face(BlastImpulse& impulse, const Blast& blast, const Cover& cover, const Actor& actor,
+              ConvexSlot slot, std::size_t face, const Pose& X_WR) {
   const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
   const auto corners = hull.face_corners(face);
   const auto place_W = [&](std::size_t i) { return Vec3(X_WR * hull.vertices[corners[i]]); };
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    push_triangle(push, blast, cover, actor, slot, {place_W(0), place_W(i), place_W(i + 1)});
+    add_triangle(impulse, blast, cover, actor, slot, {place_W(0), place_W(i), place_W(i + 1)});
   }
 }
 
-/// Impulse a square metre that faces the centre from somewhere.
+/// Returns the impulse per area at a point on a surface that faces the centre.
 Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
   const Vec3 away = point_W - blast.center_W;
   const double distance = away.norm();
@@ -79,7 +79,7 @@ Vec3 impulse_Ns_m2(const Blast& blast, const Vec3& point_W) {
   return blast.impulse_Ns_m2 * left * left / distance * away;
 }
 
-/// Impulse on a ball somewhere, for each square metre of its cross-section.
+/// Returns the impulse on a ball at a point, per area of its cross-section.
 Vec3 impulse_on_ball_Ns_m2(const Blast& blast, const Vec3& point_W) {
   if (!blast.tnt_kg) return impulse_Ns_m2(blast, point_W);
   const Vec3 away = point_W - blast.center_W;
@@ -88,28 +88,28 @@ Vec3 impulse_on_ball_Ns_m2(const Blast& blast, const Vec3& point_W) {
   return wave_impulse(*blast.tnt_kg, blast.burst, distance_m).on_ball() / distance_m * away;
 }
 
-/// On the faces of a convex that nothing covers.
-Push push_on(const Blast& blast, const Cover& cover, const Actor& actor, ConvexSlot slot,
-             const Pose& X_WR) {
-  Push push;
+/// Returns the impulse on the uncovered faces of a convex.
+BlastImpulse impulse_on(const Blast& blast, const Cover& cover, const Actor& actor, ConvexSlot slot,
+                        const Pose& X_WR) {
+  BlastImpulse impulse;
   const ConvexPolyhedron& hull = actor.structure.convex(slot)->polyhedron;
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
     if (actor.hidden[slot.value][f] != 0) continue;
     if (blast.tnt_kg) {
-      push_face(push, blast, cover, actor, slot, f, X_WR);
+      add_face(impulse, blast, cover, actor, slot, f, X_WR);
       continue;
     }
     Vec3 middle_R = Vec3::Zero();
     const auto corners = hull.face_corners(f);
     for (const std::uint32_t corner : corners) middle_R += hull.vertices[corner];
     const Vec3 middle_W = X_WR * Vec3(middle_R / static_cast<double>(corners.size()));
-    const Vec3 impulse = impulse_Ns_m2(blast, middle_W);
-    const double size = impulse.norm();
+    const Vec3 per_area = impulse_Ns_m2(blast, middle_W);
+    const double size = per_area.norm();
     if (size <= 0 || cover.covers(middle_W, actor.key, slot)) continue;
-    const double facing = -impulse.dot(X_WR.rotation * hull.faces[f].plane.normal) / size;
-    if (facing > 0) push.add(facing * face_area(hull, f) * impulse, middle_W);
+    const double facing = -per_area.dot(X_WR.rotation * hull.faces[f].plane.normal) / size;
+    if (facing > 0) impulse.add(facing * face_area(hull, f) * per_area, middle_W);
   }
-  return push;
+  return impulse;
 }
 
 bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
@@ -120,77 +120,79 @@ bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
   return (nearest_R - center_R).norm() < reach_m(blast);
 }
 
-bool was_tried(const World& world, const Burst& burst, const Convex& convex, const Push& push) {
-  if (push.weight_Ns <= 0) return false;
-  const double radius = kTriedPart * world.material(convex.material).impact_radius_m;
-  return std::ranges::any_of(burst.tried_W, [&](const Vec3& tried_W) {
-    return (tried_W - push.point_W()).norm() < radius;
+bool was_tried(const World& world, const ActiveBlast& active, const Convex& convex,
+               const BlastImpulse& impulse) {
+  if (impulse.sum_Ns <= 0) return false;
+  const double radius = kTriedRadiusShare * world.material(convex.material).impact_radius_m;
+  return std::ranges::any_of(active.tried_points_W, [&](const Vec3& tried_W) {
+    return (tried_W - impulse.point_W()).norm() < radius;
   });
 }
 
-/// By slot.
-std::vector<Push> pushes_on(const Blast& blast, const Cover& cover, const Actor& actor,
-                            const Pose& X_WR) {
-  std::vector<Push> pushes(actor.structure.slot_count());
+/// Returns the impulses on an actor by slot.
+std::vector<BlastImpulse> impulses_on(const Blast& blast, const Cover& cover, const Actor& actor,
+                                      const Pose& X_WR) {
+  std::vector<BlastImpulse> impulses(actor.structure.slot_count());
   actor.structure.for_each([&](ConvexSlot slot, const Convex&) {
-    pushes[slot.value] = push_on(blast, cover, actor, slot, X_WR);
+    impulses[slot.value] = impulse_on(blast, cover, actor, slot, X_WR);
   });
-  return pushes;
+  return impulses;
 }
 
-/// Energy that it gives a convex that is free to move.
-double energy_J(const World& world, const Push& push, const Convex& convex) {
+/// Returns the energy that an impulse gives to a free convex.
+double energy_J(const World& world, const BlastImpulse& impulse, const Convex& convex) {
   const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
-  return 0.5 * push.impulse_W.squaredNorm() / mass_kg;
+  return 0.5 * impulse.impulse_W.squaredNorm() / mass_kg;
 }
 
-/// All pushes on an actor, if they can bend it.
+/// Adds all impulses on an actor to the impact, if they can break it by bending.
 void add_bending(const World& world, const Actor& actor, const Pose& X_WR,
-                 std::span<const Push> pushes, Impact& impact) {
+                 std::span<const BlastImpulse> impulses, ActorImpact& impact) {
   double all_J = 0;
   actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
-    all_J += energy_J(world, pushes[slot.value], convex);
+    all_J += energy_J(world, impulses[slot.value], convex);
   });
   if (all_J <= actor.stress.least_J) return;
   const Pose X_RW = X_WR.inverse();
   double most_Ns = 0;
-  for (std::uint32_t slot = 0; slot < pushes.size(); ++slot) {
-    const Push& push = pushes[slot];
-    if (push.weight_Ns <= 0) continue;
-    impact.pushes.push_back(
-        {ConvexSlot(slot), X_RW.rotation * push.impulse_W, X_RW * push.point_W()});
-    if (push.weight_Ns <= most_Ns) continue;
-    most_Ns = push.weight_Ns;
+  for (std::uint32_t slot = 0; slot < impulses.size(); ++slot) {
+    const BlastImpulse& impulse = impulses[slot];
+    if (impulse.sum_Ns <= 0) continue;
+    impact.impulses.push_back(
+        {ConvexSlot(slot), X_RW.rotation * impulse.impulse_W, X_RW * impulse.point_W()});
+    if (impulse.sum_Ns <= most_Ns) continue;
+    most_Ns = impulse.sum_Ns;
     impact.convex = ConvexSlot(slot);
-    impact.point_W = push.point_W();
-    impact.direction_W = push.impulse_W.normalized();
+    impact.point_W = impulse.point_W();
+    impact.direction_W = impulse.impulse_W.normalized();
   }
 }
 
-/// The impact that a blast amounts to where it presses hardest; of no energy if it cannot break it.
-void add_breaking(const World& world, const Burst& burst, const Actor& actor,
-                  std::vector<Push> pushes, Impact& impact) {
+/// Sets the point and energy of an impact by pattern, at the largest untried impulse; the energy
+/// stays 0 if it cannot break the actor.
+void add_breaking(const World& world, const ActiveBlast& active, const Actor& actor,
+                  std::vector<BlastImpulse> impulses, ActorImpact& impact) {
   const Structure& structure = actor.structure;
   ConvexSlot hardest(0);
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
-    Push& push = pushes[slot.value];
+    BlastImpulse& impulse = impulses[slot.value];
     const bool breaks = world.material(convex.material).breakable();
-    if (!breaks || was_tried(world, burst, convex, push)) push = {};
-    if (push.weight_Ns > pushes[hardest.value].weight_Ns) hardest = slot;
+    if (!breaks || was_tried(world, active, convex, impulse)) impulse = {};
+    if (impulse.sum_Ns > impulses[hardest.value].sum_Ns) hardest = slot;
   });
-  if (pushes.empty() || pushes[hardest.value].weight_Ns <= 0) return;
+  if (impulses.empty() || impulses[hardest.value].sum_Ns <= 0) return;
   const Material& material = world.material(structure.convex(hardest)->material);
-  if (actor.volume_m3 < material.smallest_broken_m3()) return;
-  const Vec3 point_W = pushes[hardest.value].point_W();
+  if (actor.volume_m3 < material.min_breakable_volume_m3()) return;
+  const Vec3 point_W = impulses[hardest.value].point_W();
   Vec3 impulse_W = Vec3::Zero();
   double near_J = 0, near_m3 = 0;
   structure.for_each([&](ConvexSlot slot, const Convex& convex) {
-    const Push& push = pushes[slot.value];
+    const BlastImpulse& impulse = impulses[slot.value];
     const bool near =
-        push.weight_Ns > 0 && (push.point_W() - point_W).norm() <= material.impact_radius_m;
+        impulse.sum_Ns > 0 && (impulse.point_W() - point_W).norm() <= material.impact_radius_m;
     if (!near) return;
-    impulse_W += push.impulse_W;
-    near_J += energy_J(world, push, convex);
+    impulse_W += impulse.impulse_W;
+    near_J += energy_J(world, impulse, convex);
     near_m3 += convex.solid.volume_m3;
   });
   const double impulse_Ns = impulse_W.norm();
@@ -206,75 +208,77 @@ void add_breaking(const World& world, const Burst& burst, const Actor& actor,
   impact.energy_J = near_J;
 }
 
-void push_away(World& world, const Blast& blast, const Cover& cover, const Actor& actor) {
+void apply_impulse(World& world, const Blast& blast, const Cover& cover, const Actor& actor) {
   const Pose X_WR = rest_pose(actor, world.physics->state(actor.body).X_WB);
   if (!reaches(blast, actor, X_WR)) return;
-  Push push;
+  BlastImpulse impulse;
   actor.structure.for_each([&](ConvexSlot slot, const Convex&) {
-    const Push part = push_on(blast, cover, actor, slot, X_WR);
-    push.impulse_W += part.impulse_W;
-    push.weighted_point_W += part.weighted_point_W;
-    push.weight_Ns += part.weight_Ns;
+    const BlastImpulse part = impulse_on(blast, cover, actor, slot, X_WR);
+    impulse.impulse_W += part.impulse_W;
+    impulse.weighted_point_W += part.weighted_point_W;
+    impulse.sum_Ns += part.sum_Ns;
   });
   if (actor.structure.empty() && !cover.covers(X_WR.position)) {
     const double radius = ball_radius_m(actor.volume_m3);
-    push.add(std::numbers::pi * radius * radius * impulse_on_ball_Ns_m2(blast, X_WR.position),
-             X_WR.position);
+    impulse.add(std::numbers::pi * radius * radius * impulse_on_ball_Ns_m2(blast, X_WR.position),
+                X_WR.position);
   }
-  if (push.weight_Ns <= 0) return;
-  world.ledger.report.energy.drives += push_actor(world, actor, push.impulse_W, push.point_W());
+  if (impulse.sum_Ns <= 0) return;
+  world.conservation.report.energy.drives +=
+      push_actor(world, actor, impulse.impulse_W, impulse.point_W());
 }
 
-/// From where it is by now.
-void push_away(const World& world, const Blast& blast, const Cover& cover, Chip& chip) {
+/// Applies a blast's impulse to a chip at its current position.
+void apply_impulse(const World& world, const Blast& blast, const Cover& cover, DebrisPiece& chip) {
   const double elapsed_s = world.clock.elapsed_s();
   const Vec3 place_W = chip.center_W + elapsed_s * chip.velocity_W;
   if (cover.covers(place_W)) return;
   const Vec3 impulse_Ns = impulse_on_ball_Ns_m2(blast, place_W);
   const double density_kg_m3 = world.material(chip.material).density_kg_m3;
-  const Vec3 gain_W = 0.75 / (chip.radius_m * density_kg_m3) * impulse_Ns;  // of a ball's section
+  const Vec3 gain_W =
+      0.75 / (chip.radius_m * density_kg_m3) * impulse_Ns;  // of a ball's cross-section
   chip.velocity_W += gain_W;
   chip.center_W -= elapsed_s * gain_W;
 }
 
 }  // namespace
 
-Burst light(const World& world, const Blast& blast) {
+ActiveBlast start_blast(const World& world, const Blast& blast) {
   const auto number = static_cast<std::uint32_t>(&blast - world.scene.blasts.data());
-  return {blast, world.clock.time_s() + kBreaking_s, {}, number};
+  return {blast, world.clock.time_s() + kBreakDuration_s, {}, number};
 }
 
-std::vector<Impact> blows_of(const World& world, Burst& burst) {
+std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& active) {
   const BodyStates states = world.physics->states();
-  const Cover cover(world, burst.blast);
-  std::vector<Impact> impacts;
+  const Cover cover(world, active.blast);
+  std::vector<ActorImpact> impacts;
   for (const Actor& actor : world.actors) {
     const Pose X_WR = rest_pose(actor, states[actor.body].X_WB);
-    if (actor.is_kinematic || !reaches(burst.blast, actor, X_WR)) continue;
-    Impact impact;
+    if (actor.is_kinematic || !reaches(active.blast, actor, X_WR)) continue;
+    ActorImpact impact;
     impact.key = actor.key;
-    impact.blast = burst.number;
-    std::vector<Push> pushes = pushes_on(burst.blast, cover, actor, X_WR);
-    const auto bent = burst.bent.find(actor.key);
-    if (bent == burst.bent.end() || bent->second != actor.edits) {
-      burst.bent[actor.key] = actor.edits;
-      add_bending(world, actor, X_WR, pushes, impact);
+    impact.blast = active.number;
+    std::vector<BlastImpulse> impulses = impulses_on(active.blast, cover, actor, X_WR);
+    const auto bent = active.bent.find(actor.key);
+    if (bent == active.bent.end() || bent->second != actor.edits) {
+      active.bent[actor.key] = actor.edits;
+      add_bending(world, actor, X_WR, impulses, impact);
     }
-    add_breaking(world, burst, actor, std::move(pushes), impact);
-    if (impact.energy_J > 0 || !impact.pushes.empty()) impacts.push_back(std::move(impact));
+    add_breaking(world, active, actor, std::move(impulses), impact);
+    if (impact.energy_J > 0 || !impact.impulses.empty()) impacts.push_back(std::move(impact));
   }
-  for (const Impact& impact : impacts)
-    if (impact.energy_J > 0) burst.tried_W.push_back(impact.point_W);
+  for (const ActorImpact& impact : impacts)
+    if (impact.energy_J > 0) active.tried_points_W.push_back(impact.point_W);
   return impacts;
 }
 
-void push_by(World& world, const Blast& blast) {
+void apply_blast_impulses(World& world, const Blast& blast) {
   const Cover cover(world, blast);
   if (world.exposed) {
-    for (Chip& chip : world.exposed->chips) push_away(world, blast, cover, chip);
+    for (DebrisPiece& chip : world.exposed->chips) apply_impulse(world, blast, cover, chip);
   }
   for (const Actor& actor : world.actors) {
-    if (!actor.is_static) push_away(world, blast, cover, actor);
+    if (!actor.is_static) apply_impulse(world, blast, cover, actor);
   }
 }
 

@@ -1,11 +1,12 @@
-// Blasts: an impulse on every face that sees the centre, less with distance and slant; that of a
-// charge of TNT, if the blast has one (charge.h). Internal to engine/world.
+// Blasts: an impulse on every face turned to the centre, decreasing with distance and angle; for a
+// charge of TNT, that of its blast wave (charge.h). Internal to engine/world.
 //
-// What a blast can break is decided by the break stage. By pattern, from the energy that its
-// impulse would give the convexes it meets if they were free: for a few steps one place of each
-// solid, the hardest pressed first. By stress, from what all impulses on a solid bend it by: once,
-// and anew after it has broken. Then all that is loose is pushed. Walls give cover if the blast
-// says so (cover.h): what they hid when it broke them stays hidden as long as they are in the way.
+// The break stage decides the breaks of a blast. By pattern: from the energy that the impulse would
+// give to the convexes if they were free, for a few steps at one point of each solid, that of the
+// largest impulse first. By stress: from the bending by all impulses on a solid, once, and again
+// after it has broken. Then the impulse acts on all movable bodies. Walls give cover if the blast
+// says so (cover.h): what they covered when they broke stays covered as long as they are in the
+// way.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +18,23 @@
 
 namespace sunder {
 
-/// A blast under way: it breaks, one place of each solid a step, then it pushes.
-struct Burst {
+/// A blast in progress: it breaks one point of each solid a step, then applies its impulse.
+struct ActiveBlast {
   Blast blast;
-  double pushes_at_s = 0;
-  std::vector<Vec3> tried_W;  ///< Where it has broken something, or failed to.
-  std::uint32_t number = 0;   ///< Of the scene's.
-  std::map<std::uint32_t, std::uint32_t> bent = {};  ///< By actor: its edits when it was pushed.
+  double impulse_time_s = 0;
+  std::vector<Vec3> tried_points_W;  ///< Points where it has tried to break something.
+  std::uint32_t number = 0;          ///< Index in the scene.
+  /// By actor: number of edits when its bending was last planned.
+  std::map<std::uint32_t, std::uint32_t> bent = {};
 };
 
-/// One of the scene's.
-Burst light(const World& world, const Blast& blast);
-/// What it does to each actor where it presses hardest and has not been tried, and to all of one
-/// that it has not bent as it is; which is noted.
-std::vector<Impact> blows_of(const World& world, Burst& burst);
-/// Pushes all that is loose, chips that have just come off with it.
-void push_by(World& world, const Blast& blast);
+/// Begins a blast of the scene.
+ActiveBlast start_blast(const World& world, const Blast& blast);
+/// Returns the impacts of a blast: by pattern, at each actor's untried point of largest impulse; by
+/// stress, with all impulses on each actor that has been edited since the last time. Records both
+/// in `active`.
+std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& active);
+/// Applies the impulse of a blast to all movable actors and to the chips of this frame.
+void apply_blast_impulses(World& world, const Blast& blast);
 
 }  // namespace sunder

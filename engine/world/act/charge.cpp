@@ -10,13 +10,13 @@
 namespace sunder {
 namespace {
 
-constexpr double kNearest = 0.0674, kFarthest = 40;  // m/kg^(1/3)
-// Mass of a charge in free air over that of one on the ground with the same wave. The two sets of
-// fits by Kingery and Bulmash agree with it within 1.2 % from 0.1 to 32 m/kg^(1/3).
+constexpr double kMinScaledDistance = 0.0674, kMaxScaledDistance = 40;  // m/kg^(1/3)
+// Mass of a charge in free air with the same wave as a unit mass on the ground. Both sets of fits
+// by Kingery and Bulmash agree with it within 1.2 % from 0.1 to 32 m/kg^(1/3).
 constexpr double kGroundReflection = 1.8;
 
-/// log10 of an impulse in Pa·s/kg^(1/3) as a polynomial of U = shift + slope·log10(Z), the form of
-/// all fits by Kingery and Bulmash.
+/// Returns an impulse in Pa·s/kg^(1/3), whose log10 is a polynomial of U = shift + slope·log10(Z),
+/// the form of all fits by Kingery and Bulmash.
 double fit(double log_z, double shift, double slope, std::span<const double> coefficients) {
   const double u = shift + slope * log_z;
   double sum = 0;
@@ -31,9 +31,9 @@ constexpr double kIncidentNear[] = {2.52455620925, -0.502992763686, 0.1713356452
 constexpr double kIncidentFar[] = {1.67281645863,     -0.384519026965, -0.0260816706301,
                                    0.00595798753822,  0.014544526107,  -0.00663289334734,
                                    -0.00284189327204, 0.0013644816227};
-constexpr double kFar = 0.955;  // m/kg^(1/3)
+constexpr double kIncidentFitSplit = 0.955;  // m/kg^(1/3)
 
-/// The mass of the charge on the ground that has the same wave.
+/// Returns the mass of the charge on the ground with the same wave.
 double ground_kg(double tnt_kg, BurstKind burst) {
   return burst == BurstKind::kGround ? tnt_kg : tnt_kg / kGroundReflection;
 }
@@ -42,16 +42,17 @@ double ground_kg(double tnt_kg, BurstKind burst) {
 
 WaveImpulse wave_impulse(double tnt_kg, BurstKind burst, double distance_m) {
   const double scale = std::cbrt(ground_kg(tnt_kg, burst));
-  const double z = std::max(kNearest, distance_m / scale);
-  if (z > kFarthest) return {};
+  const double z = std::max(kMinScaledDistance, distance_m / scale);
+  if (z > kMaxScaledDistance) return {};
   const double log_z = natural_logarithm(z) / std::numbers::ln10;
-  const double incident = z < kFar ? fit(log_z, 2.06761908721, 3.0760329666, kIncidentNear)
-                                   : fit(log_z, -1.94708846747, 2.40697745406, kIncidentFar);
+  const double incident = z < kIncidentFitSplit
+                              ? fit(log_z, 2.06761908721, 3.0760329666, kIncidentNear)
+                              : fit(log_z, -1.94708846747, 2.40697745406, kIncidentFar);
   return {scale * fit(log_z, -0.246208804814, 1.33422049854, kReflected), scale * incident};
 }
 
 double wave_reach_m(double tnt_kg, BurstKind burst) {
-  return kFarthest * std::cbrt(ground_kg(tnt_kg, burst));
+  return kMaxScaledDistance * std::cbrt(ground_kg(tnt_kg, burst));
 }
 
 double reach_m(const Blast& blast) {

@@ -10,11 +10,11 @@
 namespace sunder {
 namespace {
 
-constexpr int kSide = 48;             // cells along an edge of the cube
-constexpr double kBehind = 1 + 1e-3;  // this much farther off than an end is behind it
+constexpr int kCellsPerEdge = 48;             // along an edge of the cube
+constexpr double kDepthTolerance = 1 + 1e-3;  // on the distance of an end
 
-/// A direction on the cube: its face, and where there, from -1 to 1.
-struct CubePlace {
+/// Point of the cube: a face, and coordinates there from -1 to 1.
+struct CubePoint {
   int face = 0;
   double u = 0, v = 0;
 };
@@ -25,7 +25,7 @@ Vec3 in_face(const Vec3& direction, int face) {
   return {direction[(axis + 1) % 3], direction[(axis + 2) % 3], ahead};
 }
 
-CubePlace on_cube(const Vec3& direction) {
+CubePoint on_cube(const Vec3& direction) {
   int axis = 0;
   direction.cwiseAbs().maxCoeff(&axis);
   const int face = 2 * axis + (direction[axis] < 0 ? 1 : 0);
@@ -34,12 +34,13 @@ CubePlace on_cube(const Vec3& direction) {
 }
 
 int cell_at(double u) {
-  return std::clamp(static_cast<int>(std::floor(0.5 * (u + 1) * kSide)), 0, kSide - 1);
+  return std::clamp(static_cast<int>(std::floor(0.5 * (u + 1) * kCellsPerEdge)), 0,
+                    kCellsPerEdge - 1);
 }
 
-/// From the middle of a cell: along it.
+/// Returns the direction of the centre of a cell.
 Vec3 direction_of(int face, int row, int column) {
-  const auto place = [](int i) { return 2 * (i + 0.5) / kSide - 1; };
+  const auto place = [](int i) { return 2 * (i + 0.5) / kCellsPerEdge - 1; };
   const int axis = face / 2;
   Vec3 direction;
   direction[axis] = face % 2 == 0 ? 1 : -1;
@@ -48,9 +49,10 @@ Vec3 direction_of(int face, int row, int column) {
   return direction.normalized();
 }
 
-/// The cells of a face that corners seen from the centre may cover; none if all are behind it.
+/// Cells of a face that a box, given by its corners seen from the centre, may cover; none if all
+/// corners are behind the face.
 struct CellRange {
-  std::array<int, 2> first{kSide, kSide}, last{-1, -1};
+  std::array<int, 2> first{kCellsPerEdge, kCellsPerEdge}, last{-1, -1};
 };
 
 CellRange range_of(const std::array<Vec3, 8>& corners, int face) {
@@ -69,11 +71,11 @@ CellRange range_of(const std::array<Vec3, 8>& corners, int face) {
       range.last[i] = std::max(range.last[i], cell);
     }
   }
-  if (ahead && behind) return {{0, 0}, {kSide - 1, kSide - 1}};
+  if (ahead && behind) return {{0, 0}, {kCellsPerEdge - 1, kCellsPerEdge - 1}};
   return range;
 }
 
-/// Where a ray leaves a convex; 0 if it does not pass through, or starts within.
+/// Returns the distance at which a ray leaves a convex; 0 if the ray misses it, or starts inside.
 double end_of(const ConvexPolyhedron& convex, const Vec3& origin_R, const Vec3& direction_R) {
   double begin = 0, end = 1e300;
   for (const ConvexPolyhedron::Face& face : convex.faces) {
@@ -90,7 +92,7 @@ double end_of(const ConvexPolyhedron& convex, const Vec3& origin_R, const Vec3& 
 
 Cover::Cover(const World& world, const Blast& blast) : center_W_(blast.center_W) {
   if (!blast.cover) return;
-  cells_.resize(std::size_t{6} * kSide * kSide);
+  cells_.resize(std::size_t{6} * kCellsPerEdge * kCellsPerEdge);
   const BodyStates states = world.physics->states();
   for (const Actor& actor : world.actors) {
     const Pose X_WR = rest_pose(actor, states[actor.body].X_WB);
@@ -118,7 +120,8 @@ void Cover::add(const Convex& convex, const Pose& X_WR, std::uint32_t actor_key,
       for (int column = range.first[0]; column <= range.last[0]; ++column) {
         const Vec3 direction_R = X_RW.rotation * direction_of(face, row, column);
         const double end_m = end_of(convex.polyhedron, origin_R, direction_R);
-        Cell& cell = cells_[static_cast<std::size_t>((face * kSide + row) * kSide + column)];
+        Cell& cell =
+            cells_[static_cast<std::size_t>((face * kCellsPerEdge + row) * kCellsPerEdge + column)];
         if (end_m > 0 && end_m < cell.end_m) cell = {end_m, actor_key, slot};
       }
     }
@@ -128,11 +131,12 @@ void Cover::add(const Convex& convex, const Pose& X_WR, std::uint32_t actor_key,
 bool Cover::covers(const Vec3& point_W, std::uint32_t actor_key, ConvexSlot slot) const {
   const Vec3 away = point_W - center_W_;
   if (cells_.empty() || away.isZero()) return false;
-  const CubePlace place = on_cube(away);
+  const CubePoint place = on_cube(away);
   const int row = cell_at(place.v), column = cell_at(place.u);
-  const Cell& cell = cells_[static_cast<std::size_t>((place.face * kSide + row) * kSide + column)];
+  const Cell& cell =
+      cells_[static_cast<std::size_t>((place.face * kCellsPerEdge + row) * kCellsPerEdge + column)];
   if (cell.actor_key == actor_key && cell.slot == slot) return false;
-  return away.norm() > kBehind * cell.end_m;
+  return away.norm() > kDepthTolerance * cell.end_m;
 }
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// What stands between a blast and what is behind it. Internal to engine/world.
+// Cover from blasts by convexes between their centres and a point. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -8,30 +8,30 @@
 
 namespace sunder {
 
-/// How far off the nearest convex ends in each of many directions from a blast's centre: a map on
-/// the six faces of a cube, as a light's shadows are kept. Convexes around the centre cover
-/// nothing, nor do balls.
+/// Distance at which the nearest convex ends, in each of many directions from a blast's centre: a
+/// cube map, like the shadow map of a point light. Convexes around the centre and balls give no
+/// cover.
 class Cover {
  public:
-  /// Of none at all, unless the blast asks for cover.
+  /// Makes the map of a blast; an empty one if the blast has no cover.
   Cover(const World& world, const Blast& blast);
 
-  /// Whether a point of a convex of an actor lies behind another convex; of a ball or a chip, that
-  /// have none, behind any.
-  bool covers(const Vec3& point_W, std::uint32_t actor_key = kNobody, ConvexSlot slot = {}) const;
+  /// Returns true if a point of a convex of an actor is behind another convex; for balls and chips,
+  /// which have no convex, behind any.
+  bool covers(const Vec3& point_W, std::uint32_t actor_key = kNoActor, ConvexSlot slot = {}) const;
 
  private:
-  static constexpr std::uint32_t kNobody = 0xffffffff;
+  static constexpr std::uint32_t kNoActor = 0xffffffff;
   struct Cell {
     double end_m = 1e300;  ///< From the centre.
-    std::uint32_t actor_key = kNobody;
+    std::uint32_t actor_key = kNoActor;
     ConvexSlot slot;
   };
 
   void add(const Convex& convex, const Pose& X_WR, std::uint32_t actor_key, ConvexSlot slot);
 
   Vec3 center_W_;
-  std::vector<Cell> cells_;  ///< Face after face, row after row; empty: no cover.
+  std::vector<Cell> cells_;  ///< Face by face, row by row; empty: no cover.
 };
 
 }  // namespace sunder

@@ -6,28 +6,28 @@
 namespace sunder {
 namespace {
 
-/// Makes it kinematic, or free, as it moves now.
+/// Makes an actor kinematic or free, with its current motion.
 void set_kinematic(World& world, Actor& actor, bool is_kinematic) {
   const BodyState was = world.physics->state(actor.body);
   const Motion motion = motion_of(actor, was);
   const double before_J = kinetic_J(actor, was);
   actor.is_static = actor.is_kinematic = is_kinematic;
   set_strength(world, actor);
-  const BodyDesc body = describe(world, actor, motion);
+  const BodyDesc body = make_body_desc(world, actor, motion);
   actor.body = world.physics->replace(std::span(&actor.body, 1), std::span(&body, 1))[0];
-  world.ledger.report.energy.script +=
+  world.conservation.report.energy.script +=
       kinetic_J(actor, world.physics->state(actor.body)) - before_J;
-  world.joints.hold_on(*world.physics, actor);
+  world.joints.reattach(*world.physics, actor);
 }
 
 Pose pose_at(const Move& move, const Pose& start, double time_s) {
   const PathKey key = move.path.at(time_s);
   const Vec3 pivot_W = move.pivot_W.value_or(start.position);
-  const Quat turn = rotation_by(key.turn_W);
+  const Quat turn = rotation_by(key.rotation_W);
   return {pivot_W + key.shift_W + turn * (start.position - pivot_W), turn * start.rotation};
 }
 
-void move_on(World& world, const Move& move, Actor& actor) {
+void update_moves(World& world, const Move& move, Actor& actor) {
   const double dt_s = world.clock.dt_s, now_s = world.clock.time_s();
   const Pose& start = world.scene.solids[actor.root_key].X_WR;
   const Pose from = pose_at(move, start, now_s), to = pose_at(move, start, now_s + dt_s);
@@ -44,22 +44,22 @@ void move_on(World& world, const Move& move, Actor& actor) {
 
 }  // namespace
 
-void take_hold(World& world) {
+void start_moves(World& world) {
   for (const Move& move : world.scene.moves) {
     for (const std::uint32_t root : move.roots)
       set_kinematic(world, *world.actors.find(root), true);
   }
 }
 
-void move_on(World& world) {
+void update_moves(World& world) {
   for (const Move& move : world.scene.moves) {
     for (const std::uint32_t root : move.roots) {
       Actor* actor = world.actors.find(root);
-      if (!actor || !actor->is_kinematic) continue;  // taken away, or let go
+      if (!actor || !actor->is_kinematic) continue;  // removed or released
       if (world.clock.is_due(move.release_s)) {
         set_kinematic(world, *actor, false);
       } else {
-        move_on(world, move, *actor);
+        update_moves(world, move, *actor);
       }
     }
   }

@@ -1,14 +1,14 @@
-// What the script moves by keyframes: kinematic bodies on their paths. Internal to engine/world.
+// Moves of the script: kinematic bodies that follow keyframes. Internal to engine/world.
 #pragma once
 
 #include "engine/world/actors/world.h"
 
 namespace sunder {
 
-/// At the start: all that will be moved stands, of infinite mass, and does not break.
-void take_hold(World& world);
-/// Lets go of what is due, and gives the others the velocity that brings them to where their path
-/// is at the end of this step.
-void move_on(World& world);
+/// Makes all bodies with moves kinematic, at the start: of infinite mass, and unbreakable.
+void start_moves(World& world);
+/// Releases the bodies that are due, and gives the others the velocity to their pose at the end of
+/// the step.
+void update_moves(World& world);
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// A solid in the running world. Internal to engine/world.
+// A solid in the running world: read Actor. Internal to engine/world.
 #pragma once
 
 #include <algorithm>
@@ -12,106 +12,95 @@
 #include "engine/model/breaker.h"
 #include "engine/model/compound.h"
 #include "engine/model/frame.h"
+#include "engine/model/impact_probe.h"
 #include "engine/model/physics.h"
 #include "engine/model/structure.h"
 
 namespace sunder {
 
-/// What presses or pulls on a convex: force in the rest frame, torque about its centroid.
-struct Press {
+/// Force on a convex in the rest frame, and torque about its centroid.
+struct AppliedForce {
   ConvexSlot convex;
   Vec3 force_R = Vec3::Zero();
   Vec3 torque_R = Vec3::Zero();
 };
 
-/// What an actor bears, and how far it is known whether it can.
+/// Loads on an actor, and the state of the stress solution for them.
 struct StressState {
-  bool breakable = false;        ///< Load can break it.
-  bool settled = false;          ///< Judged for `judged` and `judged_spin_R`, to the end.
-  std::uint64_t since_step = 0;  ///< Waits to be judged since then, if not settled.
-  std::vector<Press> pressing;   ///< Averaged over time; ascending by convex.
-  std::vector<Press> judged;
-  /// Where ω² is so much, ρ ω² r² is the weakest limit, r its radius about the centre of mass.
-  double bursts_s2 = std::numeric_limits<double>::infinity();
-  Vec3 spin_R = Vec3::Zero();  ///< Angular velocity, rad/s, if it matters; else 0.
-  Vec3 judged_spin_R = Vec3::Zero();
-  StressMemoryPtr memory;
-  /// No impact with less energy can overload it, as far as is known,
+  bool breakable = false;                 ///< AppliedForce can break the actor.
+  bool settled = false;                   ///< The stress solve for the evaluated loads is complete.
+  std::uint64_t since_step = 0;           ///< First step with unevaluated loads, if not settled.
+  std::vector<AppliedForce> mean_forces;  ///< Averaged over time; ascending by convex.
+  std::vector<AppliedForce> evaluated_forces;
+  /// Value of ω² at which ρ ω² r² equals the weakest limit, with r the radius about the centre of
+  /// mass.
+  double burst_omega2_s2 = std::numeric_limits<double>::infinity();
+  Vec3 spin_R = Vec3::Zero();  ///< Angular velocity, rad/s; 0 if negligible.
+  Vec3 evaluated_spin_R = Vec3::Zero();
+  StressCachePtr memory;
+  /// An impact with less energy cannot overload any bond, as far as is known.
   double least_J = std::numeric_limits<double>::infinity();
-  double least_Ns = 0;  ///< nor one with less impulse.
+  double least_Ns = 0;  ///< Nor can an impact with less impulse.
 };
 
-/// The energy, impulse and speed that an impact must exceed to break a body.
-struct ImpactLimits {
-  double by_pattern_J = 0, by_pattern_Ns = 0;  ///< Both are needed for a break by pattern.
-  double by_pattern_m_s = 0;                   ///< A break by pattern needs this speed,
-  double slow_J = 0;                           ///< or this energy where the impact is slower.
-  double by_stress_J = 0, by_stress_Ns = 0;    ///< Both are needed for a break by stress.
+/// Placeholder for a mesh that is made at the next snapshot.
+inline constexpr MeshIndex kMeshPending = MeshIndex(0xfffffffe);
 
-  bool exceeded(double energy_J, double impulse_Ns, double speed_m_s) const {
-    const bool breaks = energy_J > by_pattern_J && impulse_Ns > by_pattern_Ns &&
-                        (speed_m_s > by_pattern_m_s || energy_J > slow_J);
-    return breaks || (energy_J > by_stress_J && impulse_Ns > by_stress_Ns);
-  }
-};
-
-/// Stands for a mesh that is not made yet: until the next snapshot, nobody looks.
-inline constexpr MeshIndex kUndrawn = MeshIndex(0xfffffffe);
-
-/// A solid in the world: a body, what it is made of, and what is drawn of it.
+/// A solid in the world: its structure, its body in the physics and its meshes.
 struct Actor {
-  std::uint32_t key = 0;          ///< Unique in a run, ascending with age; the tag of its body.
-  std::uint32_t root_key = 0;     ///< Of what it came off in the end: a solid or ball of the scene.
-  std::uint32_t shown_key = 0;    ///< As what, or part of what, the last frame showed it.
-  std::uint32_t name = kUnnamed;  ///< In World::names; of its root.
+  std::uint32_t key = 0;             ///< Unique in a run, ascending with age; the tag of its body.
+  std::uint32_t root_key = 0;        ///< Key of the solid or ball of the scene that it came from.
+  std::uint32_t last_frame_key = 0;  ///< Key under which the last frame showed it or its parent.
+  std::uint32_t name = kNoName;      ///< Index in World::names; that of its root.
   BodyId body;
-  bool is_static = false;     ///< Nothing pushes it: it stands, or
-  bool is_kinematic = false;  ///< goes its path.
-  Structure structure;        ///< Without convexes for a ball.
-  std::uint32_t edits = 0;    ///< Of its structure, since it was made.
-  /// Of what stands, the centre is where it was when its body was made: there B has its origin.
-  Weight weight;
+  bool is_static = false;     ///< No impulse moves it: it stands still, or is kinematic.
+  bool is_kinematic = false;  ///< It follows a path of keyframes.
+  Structure structure;        ///< Empty for a ball.
+  std::uint32_t edits = 0;    ///< Number of edits of the structure.
+  /// Mass properties. The centre of mass of a static actor stays where it was when its body was
+  /// made, at the origin of B.
+  CompoundMass weight;
   double volume_m3 = 0;
-  std::vector<MaterialIndex> materials;  ///< Of its convexes when it was made, each once.
+  std::vector<MaterialIndex> materials;  ///< Materials of its convexes when it was made, each once.
   std::uint64_t born_step = 0;
-  std::uint32_t rejoined = 0;  ///< How often parts of it have become one again.
-  /// No impact with less energy can break it by a pattern: it is too tough, or its last fruitless
-  /// plan asked for more. Infinite if nothing can.
+  std::uint32_t rejoined = 0;  ///< Number of times that parts of it have been rejoined.
+  /// An impact with less energy cannot break it by a pattern: it is too tough, or its last plan
+  /// without a break needed more. Infinite if no energy can.
   double least_J = std::numeric_limits<double>::infinity();
-  double least_Ns = 0;      ///< No impact with less impulse can break it by a pattern,
-  double least_m_s = 0;     ///< nor a slower one
-  double least_slow_J = 0;  ///< that has less energy than this.
+  double least_Ns = 0;      ///< An impact with less impulse cannot break it by a pattern.
+  double least_m_s = 0;     ///< An impact slower than this, and with
+  double least_slow_J = 0;  ///< less energy than this, cannot break it by a pattern.
   StressState stress;
-  /// No impact with less energy can break it by pattern or by stress.
+  /// Least energy of an impact that can break it, by pattern or by stress.
   double least_of_all_J() const { return std::min(least_J, stress.least_J); }
-  /// Returns its limits. An actor without a pattern can part by an impact of any impulse.
+  /// Returns the limits of impacts. An actor without a pattern can break by any impulse.
   ImpactLimits impact_limits() const {
     const bool has_pattern = least_J < std::numeric_limits<double>::infinity();
     return {least_J,      least_Ns,       least_m_s,
             least_slow_J, stress.least_J, has_pattern ? stress.least_Ns : 0};
   }
-  std::vector<MeshIndex> meshes;  ///< Per slot; none() where nothing shows, or kUndrawn.
-  std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot, a flag for each face.
+  std::vector<MeshIndex> meshes;  ///< Per slot; none() if invisible, or kMeshPending.
+  std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot: a flag for each face.
 };
 
-/// In place of an actor where there is none; kGroundKey is the body tag of the ground.
-inline constexpr std::uint32_t kNobodyKey = 0xfffffffe;
+/// Key that stands for no actor; kGroundKey is the body tag of the ground.
+inline constexpr std::uint32_t kNoActorKey = 0xfffffffe;
 
 inline double ball_radius_m(double volume_m3) {
   return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));
 }
 
-/// Where a rest frame is, and how what is in it moves.
+/// Pose of a rest frame, and the velocity field of what is fixed to it.
 struct Motion {
   Pose X_WR;
   VelocityField field;
 };
 
-/// Where an actor's rest frame is when its body is at `X_WB`.
+/// Returns the pose of an actor's rest frame when its body is at `X_WB`.
 inline Pose rest_pose(const Actor& actor, const Pose& X_WB) {
   return {X_WB * Vec3(-actor.weight.com_R), X_WB.rotation};
 }
-/// 0 of what is static or kinematic.
+/// Returns the kinetic energy of an actor; 0 if static or kinematic.
 inline double kinetic_J(const Actor& actor, const BodyState& state) {
   if (actor.is_static) return 0;
   const Vec3 spin_B = state.X_WB.rotation.conjugate() * state.angular_velocity_W;

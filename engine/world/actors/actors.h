@@ -11,13 +11,13 @@
 
 namespace sunder {
 
-/// Actors ascending by key. Their places change when one goes.
+/// Actors ascending by key. Their indices change when one is erased.
 class Actors {
  public:
   std::uint32_t new_key() { return next_key_++; }
-  /// Keys handed out so far are less than this.
+  /// Next key; all keys handed out so far are less.
   std::uint32_t next_key() const { return next_key_; }
-  /// The newest comes last.
+  /// Adds an actor, whose key must be the largest.
   void add(Actor actor) {
     keys_.push_back(actor.key);
     all_.push_back(std::move(actor));
@@ -27,7 +27,7 @@ class Actors {
     all_.erase(all_.begin() + static_cast<std::ptrdiff_t>(place));
   }
 
-  /// Null if the actor is gone.
+  /// Returns the actor with a key; null if there is none.
   const Actor* find(std::uint32_t key) const {
     const auto it = std::ranges::lower_bound(keys_, key);
     return it != keys_.end() && *it == key ? &all_[static_cast<std::size_t>(it - keys_.begin())]
@@ -48,7 +48,7 @@ class Actors {
 
  private:
   std::vector<Actor> all_;
-  std::vector<std::uint32_t> keys_;  ///< Theirs: what a search goes through.
+  std::vector<std::uint32_t> keys_;  ///< Keys of all_, contiguous for fast search.
   std::uint32_t next_key_ = 0;
 };
 

@@ -7,22 +7,23 @@
 #include <utility>
 #include <vector>
 
-#include "engine/model/bend.h"
+#include "engine/model/bent_section.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
 namespace {
 
-// What has bent or slid by less since it was drawn is not drawn anew.
-constexpr double kBend_rad = 0.5 * std::numbers::pi / 180;
-constexpr double kSlide = 2e-3;  // of the section's reach
+// Least bending and sliding since a hinge was last drawn for which it is redrawn.
+constexpr double kRedrawAngle_rad = 0.5 * std::numbers::pi / 180;
+constexpr double kRedrawSlideShare = 2e-3;  // share of the section's reach
 
 bool has_moved(const Pose& from, const Pose& to, const Vec3& at, double reach_m) {
   const double turned = 2 * (to.rotation * from.rotation.conjugate()).vec().norm();
-  return turned > kBend_rad || (to * at - from * at).norm() > kSlide * reach_m;
+  return turned > kRedrawAngle_rad || (to * at - from * at).norm() > kRedrawSlideShare * reach_m;
 }
 
-/// Flags of faces that had other numbers, by their names; new ones are seen.
+/// Returns the hidden flags of a convex's faces from those of an earlier convex, matched by the
+/// planes' names; new faces are visible.
 std::vector<std::uint8_t> hidden_in(const Convex& now, const Convex& before,
                                     const std::vector<std::uint8_t>& hidden) {
   std::vector<std::uint8_t> flags;
@@ -46,7 +47,7 @@ void draw(World& world, Actor& actor, HingeSide& side, const BentSide& bent, con
                           ? make_mesh(*ended.convex, hidden_in(*ended.convex, *convex, hidden))
                           : nullptr;
     if (mesh) {
-      world.meshes.show(actor, ended.slot, mesh);
+      world.meshes.override_mesh(actor, ended.slot, mesh);
     } else {
       world.meshes.hide(actor, ended.slot);
     }
@@ -54,7 +55,7 @@ void draw(World& world, Actor& actor, HingeSide& side, const BentSide& bent, con
   if (before.empty()) return;
   actor.structure.for_each([&](ConvexSlot slot, const Convex&) {
     if (std::ranges::find(before, actor.structure.convex(slot)) != before.end())
-      world.meshes.show(actor, slot, nullptr);
+      world.meshes.override_mesh(actor, slot, nullptr);
   });
 }
 

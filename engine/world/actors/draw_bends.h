@@ -1,12 +1,13 @@
-// Hinges are drawn as they bend. Internal to engine/world.
+// Drawing of bent plastic hinges. Internal to engine/world.
 #pragma once
 
 #include "engine/world/actors/world.h"
 
 namespace sunder {
 
-/// Draws both sides of every hinge that has bent since it was last drawn as ending midway between
-/// them, as they will once they are one again: no gap opens, and nothing jumps then.
+/// Redraws each hinge that has bent since it was last drawn: both sides end in the plane midway
+/// between them, as they will when they are rejoined, so that no gap opens and rejoining changes
+/// nothing visible.
 void draw_bends(World& world);
 
 }  // namespace sunder

@@ -6,8 +6,8 @@
 namespace sunder {
 namespace {
 
-/// Calls `use` with the corners of convex polygons that make up what a convex shows in a face: the
-/// face, or triangles of its visual mesh's cap there, which is often less.
+/// Calls `use` with the corners of convex polygons that cover the visible part of a convex's face:
+/// the face, or the triangles of its visual mesh's cap, which may be smaller.
 template <class Use>
 void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
   const ConvexPolyhedron& hull = convex.polyhedron;
@@ -30,9 +30,9 @@ void for_polygons(const Convex& convex, std::uint32_t face, const Use& use) {
 
 }  // namespace
 
-void Exposed::wait(double time_s) {
-  for (Parent& parent : parents) parent.back_s -= time_s;
-  for (Chip& chip : chips) chip.center_W += time_s * chip.velocity_W;
+void Exposed::delay(double time_s) {
+  for (Parent& parent : parents) parent.since_frame_start_s -= time_s;
+  for (DebrisPiece& chip : chips) chip.center_W += time_s * chip.velocity_W;
 }
 
 void note_exposed(World& world, const Structure& structure, const BreakEdit& edit,
@@ -58,7 +58,7 @@ void note_exposed(World& world, const Structure& structure, const BreakEdit& edi
 
 void note_chip(World& world, const Compound& piece, const Motion& motion) {
   if (!world.exposed) return;
-  const Weight weight = weigh(piece, *world.materials);
+  const CompoundMass weight = mass_of(piece, *world.materials);
   const Vec3 center_W = motion.X_WR * weight.com_R;
   const Vec3 velocity_W = motion.field(center_W);
   world.exposed->chips.push_back({center_W - world.clock.elapsed_s() * velocity_W,

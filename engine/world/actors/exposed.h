@@ -1,4 +1,4 @@
-// What breaks laid bare, on its way to the particles. Internal to engine/world.
+// Faces exposed by breaks, and chips, collected for the particles. Internal to engine/world.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@ namespace sunder {
 
 struct World;
 
-/// What breaks laid bare since the particles last moved.
+/// Faces that breaks have exposed, and chips, since the particles last moved.
 struct Exposed {
-  /// The solid that a break took apart, as it was then.
+  /// A broken solid at the time of the break.
   struct Parent {
     Motion motion;
-    double back_s = 0;  ///< Since this frame began.
+    double since_frame_start_s = 0;  ///< Time of the break.
   };
   struct Face {
     std::uint32_t parent = 0;     ///< Index in `parents`.
-    std::uint32_t owner_key = 0;  ///< The actor that it is a face of; none may have this key.
+    std::uint32_t owner_key = 0;  ///< Key of the actor with the face; the actor may be gone.
     Vec3 normal_R = Vec3::UnitY();
     MaterialIndex material;
     std::size_t corners_end = 0;
@@ -30,17 +30,17 @@ struct Exposed {
   std::vector<Parent> parents;
   std::vector<Face> faces;
   std::vector<Vec3> corners_R;
-  std::vector<Chip> chips;  ///< Where they were when this frame began.
+  std::vector<DebrisPiece> chips;  ///< Positions at the start of the frame.
 
-  /// It goes on as it moves for that long, unseen.
-  void wait(double time_s);
+  /// Moves the time reference on by `time_s`, when the emission is delayed by a frame.
+  void delay(double time_s);
 };
 
-/// Notes what a break laid bare, once it is carried out: `edit` was applied to `structure`, and its
-/// pieces are the actors with these keys (kNobodyKey: too small for one).
+/// Collects the faces that a break has exposed. `edit` has been applied to `structure`; its pieces
+/// are the actors with these keys (kNoActorKey: too small for an actor).
 void note_exposed(World& world, const Structure& structure, const BreakEdit& edit,
                   const Motion& before, std::span<const std::uint32_t> piece_keys);
-/// Notes a piece that is too small to be a body.
+/// Collects a piece that is too small for a body.
 void note_chip(World& world, const Compound& piece, const Motion& motion);
 
 }  // namespace sunder

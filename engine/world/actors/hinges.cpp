@@ -12,14 +12,14 @@
 namespace sunder {
 namespace {
 
-// A joint is told that it has hardened once its strain has grown by this part of what tears it.
-constexpr double kNews = 0.01;
+// Growth of the strain, relative to the elongation, for which the strength of a joint is updated.
+constexpr double kStrengthUpdateShare = 0.01;
 
-/// By how much the outermost of a section has been drawn out, or sheared to the same effect (von
-/// Mises), in parts of its gauge length.
-double strain_of(const PlasticSection& section, const JointFlow& flow) {
+/// Returns the strain of the outermost fibre of a section: elongation and shear, combined by von
+/// Mises, over the gauge length.
+double strain_of(const PlasticSection& section, const PlasticFlow& flow) {
   const Mat3& axes = section.strength.axes_R;
-  const Vec3 drawn = axes.transpose() * flow.drawn_R;
+  const Vec3 drawn = axes.transpose() * flow.displacement_R;
   const Vec3 turned = (axes.transpose() * flow.turn_R).cwiseProduct(section.reach_m);
   const double along = std::abs(drawn.x()) + std::hypot(turned.y(), turned.z());
   const double across = std::hypot(drawn.y(), drawn.z()) + std::abs(turned.x());
@@ -39,9 +39,9 @@ HingeSide side_of(const BreakEdit& edit, const Structure& structure, const Plast
   return side;
 }
 
-/// The faces of a section that has torn lie bare on one side.
-void expose(World& world, std::uint32_t key, const HingeSide& side,
-            const std::vector<double>& areas_m2) {
+/// Adds the faces of one side of a torn section to the exposed faces.
+void note_torn_side(World& world, std::uint32_t key, const HingeSide& side,
+                    const std::vector<double>& areas_m2) {
   const Actor& actor = *world.actors.find(key);
   BreakEdit bare;
   for (std::size_t i = 0; i < side.slots.size(); ++i) {
@@ -54,22 +54,22 @@ void expose(World& world, std::uint32_t key, const HingeSide& side,
 
 void tear(World& world, const Joints::Live& joint) {
   const Hinge& hinge = *joint.hinge;
-  expose(world, joint.a.key, hinge.a, hinge.areas_m2);
-  expose(world, joint.b.key, hinge.b, hinge.areas_m2);
+  note_torn_side(world, joint.a.key, hinge.a, hinge.areas_m2);
+  note_torn_side(world, joint.b.key, hinge.b, hinge.areas_m2);
   const Actor& actor = *world.actors.find(joint.a.key);
-  BreakEvent event = break_of(world, actor, hinge.a.convexes[0]->material);
+  BreakEvent event = make_break_event(world, actor, hinge.a.convexes[0]->material);
   event.child_keys = {joint.a.key, joint.b.key};
   event.point_W = rest_pose(actor, world.physics->state(actor.body).X_WB) * joint.a.anchor_R;
   for (const double area_m2 : hinge.areas_m2) event.new_area_m2 += area_m2;
   event.pieces = 2;
-  world.ledger.breaks.push_back(event);
+  world.conservation.breaks.push_back(event);
   world.joints.cut(*world.physics, joint.id);
 }
 
 }  // namespace
 
-void join_hinges(World& world, const Actor& parent, const BreakEdit& edit,
-                 std::span<const Actor> pieces, std::span<const std::uint32_t> piece_keys) {
+void add_hinges(World& world, const Actor& parent, const BreakEdit& edit,
+                std::span<const Actor> pieces, std::span<const std::uint32_t> piece_keys) {
   const auto actor = [&](std::uint32_t piece) -> const Actor& {
     const auto it = std::ranges::find(pieces, piece_keys[piece], &Actor::key);
     return it != pieces.end() ? *it : parent;
@@ -86,20 +86,21 @@ void join_hinges(World& world, const Actor& parent, const BreakEdit& edit,
   }
 }
 
-void flow(World& world) {
-  for (const JointFlow& flowed : world.physics->joint_flows()) {
+void update_hinges(World& world) {
+  for (const PlasticFlow& flowed : world.physics->plastic_flows()) {
     Joints::Live& joint = world.joints.at(flowed.joint);
     Hinge& hinge = *joint.hinge;
-    world.ledger.note_bending(flowed.work_J);
-    world.ledger.report.energy.joints -= flowed.work_J;  // where the solve has booked it
+    world.conservation.add_plastic_work(flowed.work_J);
+    world.conservation.report.energy.joints -= flowed.work_J;  // the solve has counted it there
     hinge.flowed_step = world.clock.step;
-    hinge.stays = false;
+    hinge.rejoin_failed = false;
     hinge.strain += strain_of(hinge.section, flowed);
     if (hinge.strain > hinge.section.elongation) {
       tear(world, joint);
-    } else if (hinge.strain - hinge.known_strain > kNews * hinge.section.elongation) {
+    } else if (hinge.strain - hinge.solver_strain >
+               kStrengthUpdateShare * hinge.section.elongation) {
       world.physics->strengthen(joint.id, hinge.strength());
-      hinge.known_strain = hinge.strain;
+      hinge.solver_strain = hinge.strain;
     }
   }
 }

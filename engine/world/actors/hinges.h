@@ -1,5 +1,5 @@
-// Sections of the running world that flow: bodies held together by what a section of them bears.
-// Internal to engine/world. Who holds whom is in joints.h.
+// Plastic hinges: yielding sections of solids, as joints between the bodies on both sides. Their
+// joints are in joints.h. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ struct Actor;
 struct BreakEdit;
 struct World;
 
-/// Joins what an edit holds together by sections. It was applied to `parent`; its pieces are the
-/// actors with these keys, as exposed faces name them, of `pieces`, or the parent.
-void join_hinges(World& world, const Actor& parent, const BreakEdit& edit,
-                 std::span<const Actor> pieces, std::span<const std::uint32_t> piece_keys);
+/// Adds the plastic hinges of an edit. The edit has been applied to `parent`; `piece_keys` are the
+/// keys of its pieces as exposed faces number them: actors in `pieces`, or the parent.
+void add_hinges(World& world, const Actor& parent, const BreakEdit& edit,
+                std::span<const Actor> pieces, std::span<const std::uint32_t> piece_keys);
 
-/// After a solve: hinges that flowed harden, and those that are drawn out too far tear.
-void flow(World& world);
+/// Updates hinges after a solve: those that yielded harden, and those beyond their elongation tear.
+void update_hinges(World& world);
 
 }  // namespace sunder

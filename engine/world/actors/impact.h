@@ -1,4 +1,4 @@
-// What hits an actor. Internal to engine/world.
+// An impact on an actor. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,16 @@
 
 namespace sunder {
 
-/// An impact that may break an actor, as decided from the approaches of a body pair.
-struct Impact {
-  std::uint32_t key = 0;  ///< The actor that may break.
-  ConvexSlot convex;      ///< That is hit.
+/// An impact that may break an actor: by a body, or by a blast.
+struct ActorImpact {
+  std::uint32_t key = 0;  ///< Key of the struck actor.
+  ConvexSlot convex;      ///< Struck convex.
   Vec3 point_W = Vec3::Zero();
   Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the actor.
-  double energy_J = 0;               ///< The work it would do where it hits.
-  std::uint32_t blast = 0;           ///< Of one: which of the scene's,
-  std::vector<Load> pushes = {};     ///< and all that bends the actor, N·s in place of N.
+  double energy_J = 0;               ///< Work that the impact can do at the point.
+  std::uint32_t blast = 0;           ///< For blasts: index in the scene.
+  /// For blasts: impulses that bend the actor, N·s in place of N.
+  std::vector<AppliedForce> impulses = {};
 };
 
 }  // namespace sunder

@@ -9,35 +9,37 @@
 namespace sunder {
 namespace {
 
-constexpr double kReach = 0.02;  // of a piece's size: an anchor so far off it is still its own
+// Distance of an anchor from a piece that still has it, relative to the piece's size.
+constexpr double kAnchorTolerance = 0.02;
 
-/// The actor that has a point, or is nearest within reach; null if none.
+/// Returns the actor that contains a point, or the nearest within tolerance; null if there is none.
 const Actor* actor_at(std::span<const Actor* const> actors, const Vec3& point_R) {
   const Actor* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const Actor* actor : actors) {
-    const double distance = distance_outside(actor->structure, point_R);
-    if (distance >= least || distance > kReach * std::cbrt(actor->volume_m3)) continue;
+    const double distance = distance_to(actor->structure, point_R);
+    if (distance >= least || distance > kAnchorTolerance * std::cbrt(actor->volume_m3)) continue;
     least = distance;
     nearest = actor;
   }
   return nearest;
 }
 
-/// The actor that has all convexes of a side of a hinge, if they are in one still; null if not.
+/// Returns the actor that has all convexes of a hinge side; null if there is none.
 const Actor* actor_with(std::span<const Actor* const> actors, HingeSide& side) {
-  const auto has = std::ranges::find_if(actors, [&](const Actor* a) { return side.is_of(*a); });
+  const auto has =
+      std::ranges::find_if(actors, [&](const Actor* a) { return side.find_slots(*a); });
   return has == actors.end() ? nullptr : *has;
 }
 
 }  // namespace
 
-bool HingeSide::is_of(const Actor& actor) {
+bool HingeSide::find_slots(const Actor& actor) {
   const Structure& structure = actor.structure;
   const auto is_at = [&](std::size_t i, ConvexSlot slot) {
     return structure.has(slot) && structure.convex(slot) == convexes[i];
   };
-  std::vector<std::uint32_t> found = slots;  // what stands keeps them
+  std::vector<std::uint32_t> found = slots;  // static actors keep their slots
   bool as_before = found.size() == convexes.size();
   for (std::size_t i = 0; as_before && i < found.size(); ++i)
     as_before = is_at(i, ConvexSlot(found[i]));
@@ -100,7 +102,7 @@ void Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
   live_.push_back(live);
 }
 
-Joints::Live Joints::hold(Physics& physics, const Actor& a, const Actor& b, Hinge hinge) {
+Joints::Live Joints::make_hinge(Physics& physics, const Actor& a, const Actor& b, Hinge hinge) {
   const Pose X_AB = relative_rest(physics, a, b);
   Live live;
   JointDesc& desc = live.desc;
@@ -110,7 +112,7 @@ Joints::Live Joints::hold(Physics& physics, const Actor& a, const Actor& b, Hing
   desc.anchor_b_R = X_AB.inverse() * desc.anchor_a_R;
   desc.rotation_RaRb = X_AB.rotation;
   desc.strength = hinge.strength();
-  hinge.a.is_of(a), hinge.b.is_of(b);
+  hinge.a.find_slots(a), hinge.b.find_slots(b);
   desc.quiet_a = hinge.a.slots, desc.quiet_b = hinge.b.slots;
   live.id = physics.join(desc);
   live.a = {a.key, desc.anchor_a_R}, live.b = {b.key, desc.anchor_b_R};
@@ -119,12 +121,12 @@ Joints::Live Joints::hold(Physics& physics, const Actor& a, const Actor& b, Hing
 }
 
 void Joints::add(Physics& physics, const Actor& a, const Actor& b, Hinge hinge) {
-  live_.push_back(hold(physics, a, b, std::move(hinge)));
+  live_.push_back(make_hinge(physics, a, b, std::move(hinge)));
 }
 
-Joints::Live Joints::moved(Physics& physics, const Actors& actors, Live joint, bool is_a,
-                           const Actor& into, const Pose& X_IF,
-                           std::span<const ConvexSlot> slot_of) {
+Joints::Live Joints::transferred(Physics& physics, const Actors& actors, Live joint, bool is_a,
+                                 const Actor& into, const Pose& X_IF,
+                                 std::span<const ConvexSlot> slot_of) {
   if (joint.hinge) {
     Hinge& hinge = *joint.hinge;
     HingeSide& side = is_a ? hinge.a : hinge.b;
@@ -135,12 +137,12 @@ Joints::Live Joints::moved(Physics& physics, const Actors& actors, Live joint, b
     }
     PlasticSection& section = hinge.section;
     hinge.X_AB = is_a ? X_IF * hinge.X_AB : hinge.X_AB * X_IF.inverse();
-    hinge.drawn_X_AB = hinge.X_AB;  // new convexes, drawn as they are
+    hinge.drawn_X_AB = hinge.X_AB;  // the new convexes are not drawn bent
     side.redrawn.clear();
     if (is_a) section.centroid_R = X_IF * section.centroid_R;
     if (is_a) section.strength.axes_R = X_IF.rotation * section.strength.axes_R;
     const Actor& other = *actors.find((is_a ? joint.b : joint.a).key);
-    return hold(physics, is_a ? into : other, is_a ? other : into, std::move(hinge));
+    return make_hinge(physics, is_a ? into : other, is_a ? other : into, std::move(hinge));
   }
   End& end = is_a ? joint.a : joint.b;
   end = {into.key, X_IF * end.anchor_R};
@@ -149,7 +151,7 @@ Joints::Live Joints::moved(Physics& physics, const Actors& actors, Live joint, b
     const Actor* actor = actors.find(one.key);
     return actor ? actor->body : BodyId();
   };
-  desc.a = body_of(joint.a), desc.b = body_of(joint.b);  // either may have gone to a piece since
+  desc.a = body_of(joint.a), desc.b = body_of(joint.b);  // either end may have moved to a piece
   (is_a ? desc.anchor_a_R : desc.anchor_b_R) = end.anchor_R;
   Vec3& axis_R = is_a ? desc.axis_a_R : desc.axis_b_R;
   axis_R = X_IF.rotation * axis_R;
@@ -159,7 +161,7 @@ Joints::Live Joints::moved(Physics& physics, const Actors& actors, Live joint, b
   return joint;
 }
 
-void Joints::hold_on(Physics& physics, const Actor& actor) {
+void Joints::reattach(Physics& physics, const Actor& actor) {
   for (const Live& joint : live_) {
     for (const bool is_a : {true, false}) {
       if ((is_a ? joint.a : joint.b).key != actor.key) continue;
@@ -170,8 +172,8 @@ void Joints::hold_on(Physics& physics, const Actor& actor) {
   }
 }
 
-void Joints::move(Physics& physics, const Actors& actors, std::uint32_t from, const Actor& into,
-                  const Pose& X_IF, std::span<const ConvexSlot> slot_of) {
+void Joints::transfer(Physics& physics, const Actors& actors, std::uint32_t from, const Actor& into,
+                      const Pose& X_IF, std::span<const ConvexSlot> slot_of) {
   std::vector<JointId> inner;
   for (Live& joint : live_) {
     const bool is_a = joint.a.key == from;
@@ -180,14 +182,14 @@ void Joints::move(Physics& physics, const Actors& actors, std::uint32_t from, co
     if ((is_a ? joint.b : joint.a).key == into.key) {
       inner.push_back(joint.id);
     } else {
-      joint = moved(physics, actors, std::move(joint), is_a, into, X_IF, slot_of);
+      joint = transferred(physics, actors, std::move(joint), is_a, into, X_IF, slot_of);
     }
   }
-  forget(inner);
+  erase(inner);
 }
 
-std::uint32_t Joints::follow(Physics& physics, const Actor& parent, bool stays,
-                             std::span<const Actor> pieces) {
+std::uint32_t Joints::reassign_ends(Physics& physics, const Actor& parent, bool stays,
+                                    std::span<const Actor> pieces) {
   std::vector<const Actor*> actors;
   if (stays) actors.push_back(&parent);
   for (const Actor& piece : pieces) actors.push_back(&piece);
@@ -209,15 +211,15 @@ std::uint32_t Joints::follow(Physics& physics, const Actor& parent, bool stays,
     physics.cut(joint.id);
     lost.push_back(joint.id);
   }
-  return forget(lost);
+  return erase(lost);
 }
 
 void Joints::cut(Physics& physics, JointId joint) {
   physics.cut(joint);
-  forget({joint});
+  erase({joint});
 }
 
-std::vector<ConvexSlot> Joints::hinged(std::uint32_t key) const {
+std::vector<ConvexSlot> Joints::hinged_convexes(std::uint32_t key) const {
   std::vector<ConvexSlot> slots;
   for (const Live& joint : live_) {
     if (!joint.hinge) continue;
@@ -241,15 +243,15 @@ std::uint32_t Joints::cut(Physics& physics, std::uint32_t key) {
     physics.cut(joint->id);
     lost.push_back(joint->id);
   }
-  return forget(lost);
+  return erase(lost);
 }
 
 std::uint32_t Joints::take_broken(Physics& physics) {
-  return live_.empty() ? 0 : forget(physics.take_broken());
+  return live_.empty() ? 0 : erase(physics.take_broken());
 }
 
-/// Returns how many.
-std::uint32_t Joints::forget(const std::vector<JointId>& gone) {
+/// Erases joints and returns their number.
+std::uint32_t Joints::erase(const std::vector<JointId>& gone) {
   for (const JointId id : gone) {
     std::erase_if(live_, [&](const Live& joint) { return joint.id == id; });
   }

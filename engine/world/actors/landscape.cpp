@@ -8,7 +8,7 @@
 namespace sunder {
 namespace {
 
-constexpr std::size_t kFacetsABody = 256;  // near each other, as lengths within a body are floats
+constexpr std::size_t kFacetsPerBody = 256;  // neighbours: lengths within a body are floats
 
 void add_plane(const Ground& ground, Physics& physics) {
   ShapeDesc plane;
@@ -23,7 +23,7 @@ void add_plane(const Ground& ground, Physics& physics) {
   physics.replace({}, std::span(&body, 1));
 }
 
-BodyDesc describe(std::span<const Facet> facets, const Material& material) {
+BodyDesc make_body_desc(std::span<const Facet> facets, const Material& material) {
   BodyDesc body;
   body.is_static = true;
   body.tag = kGroundKey;
@@ -46,10 +46,10 @@ BodyDesc describe(std::span<const Facet> facets, const Material& material) {
 void add_mesh(const GroundMesh& mesh, World& world) {
   std::vector<Facet> facets = make_facets(mesh);
   std::vector<BodyDesc> bodies;
-  for (std::size_t first = 0; first < facets.size(); first += kFacetsABody) {
-    const std::size_t count = std::min(kFacetsABody, facets.size() - first);
+  for (std::size_t first = 0; first < facets.size(); first += kFacetsPerBody) {
+    const std::size_t count = std::min(kFacetsPerBody, facets.size() - first);
     bodies.push_back(
-        describe(std::span(facets).subspan(first, count), world.material(mesh.material)));
+        make_body_desc(std::span(facets).subspan(first, count), world.material(mesh.material)));
   }
   world.physics->replace({}, bodies);
   for (const std::shared_ptr<const Mesh>& drawn : make_meshes(mesh))

@@ -1,4 +1,5 @@
-// The ground in the running world: a plane, and meshes; it is no actor. Internal to engine/world.
+// The ground in the running world: a plane and meshes, which are no actors. Internal to
+// engine/world.
 #pragma once
 
 #include <vector>
@@ -10,14 +11,15 @@ namespace sunder {
 
 struct World;
 
-/// The ground's meshes: one body to who looks at it, many to the physics.
+/// Meshes of the ground: one body in frames, several in the physics.
 struct Landscape {
   std::vector<Facet> facets;
-  std::vector<ObstacleShape> obstacles;  ///< The same.
-  std::vector<MeshIndex> meshes;         ///< In W.
+  std::vector<ObstacleShape> obstacles;  ///< Shapes of the facets for the particles.
+  std::vector<MeshIndex> meshes;         ///< Drawn meshes, in W.
 };
 
-/// Brings the scene's ground into the physics, tagged kGroundKey, and its meshes into the picture.
+/// Adds the scene's ground to the physics, tagged kGroundKey, and its meshes to those that are
+/// drawn.
 void add_ground(World& world);
 
 }  // namespace sunder

@@ -10,11 +10,11 @@
 namespace sunder {
 namespace {
 
-// Small fragments are many, and what strikes them is the business of stage `break`: what presses on
-// them is not looked at, only their spin.
-constexpr std::size_t kLeastPressed = 16;  // convexes
+// Least convexes of a fragment for which contact forces are evaluated. Small fragments are many,
+// and the break stage handles their impacts: of small fragments only the spin is evaluated.
+constexpr std::size_t kMinLoadedConvexes = 16;
 
-/// Whether load may break a compound.
+/// Returns true if load may break an actor.
 bool breaks_by_load(const World& world, const Actor& actor) {
   if (actor.structure.size() < 2) return false;
   return std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
@@ -22,30 +22,32 @@ bool breaks_by_load(const World& world, const Actor& actor) {
   });
 }
 
-/// Whether what presses on it and strikes it is looked at. However small, what may bend is.
-bool feels_pushes(const World& world, const Actor& actor) {
+/// Returns true if contact forces and impacts on an actor are evaluated by stress; always for
+/// yielding materials.
+bool reports_contact_loads(const World& world, const Actor& actor) {
   if (!actor.stress.breakable) return false;
   const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
-  return !is_fragment || actor.structure.size() >= kLeastPressed ||
+  return !is_fragment || actor.structure.size() >= kMinLoadedConvexes ||
          std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
            return world.material(material).yields();
          });
 }
 
-/// See StressState.
-double bursting_s2(const World& world, const Actor& actor) {
-  double weakest_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0, reach_m = 0;
+/// Returns the value of StressState::burst_omega2_s2.
+double burst_omega2_s2_of(const World& world, const Actor& actor) {
+  double min_stress_limit_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0,
+         reach_m = 0;
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     density_kg_m3 = std::max(density_kg_m3, material.density_kg_m3);
-    weakest_Pa = std::min(weakest_Pa, material.weakest_Pa());
+    min_stress_limit_Pa = std::min(min_stress_limit_Pa, material.min_stress_limit_Pa());
   }
   actor.structure.for_each([&](ConvexSlot, const Convex& convex) {
     const Vec3 low = actor.weight.com_R - convex.box.min,
                high = convex.box.max - actor.weight.com_R;
     reach_m = std::max(reach_m, low.cwiseMax(high).norm());
   });
-  return weakest_Pa / (density_kg_m3 * reach_m * reach_m);
+  return min_stress_limit_Pa / (density_kg_m3 * reach_m * reach_m);
 }
 
 std::vector<MaterialIndex> materials_of(const Compound& compound) {
@@ -57,18 +59,18 @@ std::vector<MaterialIndex> materials_of(const Compound& compound) {
   return all;
 }
 
-// A crack through a solid of volume V is at least this part of V^(2/3).
-constexpr double kLeastCrack = 0.1;
-// Where a pattern is, no blow on a solid of more bonds comes to an answer by the visits that one
-// may take (planned_break.cpp): half of all take 13 a bond and more.
-constexpr std::size_t kMostBondsStruck = 40000;
+// Least area of a crack through a solid of volume V, relative to V^(2/3).
+constexpr double kMinCrackShare = 0.1;
+// Most bonds of a solid with a pattern for which impacts are planned by stress: with more, no plan
+// ends within its evaluations (planned_break.cpp), as half of all plans take 13 or more a bond.
+constexpr std::size_t kMaxImpactBonds = 40000;
 
-// A structure with more convexes is assumed to have a thin one.
-constexpr std::size_t kMostLookedAt = 8;
+// Most convexes that are checked for a plate; a structure with more is assumed to have one.
+constexpr std::size_t kMaxThinChecks = 8;
 
 /// Returns true if one of a structure's convexes is a plate, or is assumed to be.
 bool has_thin(const Structure& structure) {
-  bool found = structure.size() > kMostLookedAt;
+  bool found = structure.size() > kMaxThinChecks;
   if (!found)
     structure.for_each([&](ConvexSlot, const Convex& convex) { found = found || is_thin(convex); });
   return found;
@@ -90,9 +92,9 @@ void set_least(const World& world, Actor& actor) {
   const bool may_bend = has_thin(actor.structure);
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
-    if (!material.breakable() || actor.volume_m3 < material.smallest_broken_m3()) continue;
+    if (!material.breakable() || actor.volume_m3 < material.min_breakable_volume_m3()) continue;
     const double reach_m3 = reached_m3(material, actor.volume_m3);
-    const double crack_m2 = kLeastCrack * std::cbrt(reach_m3 * reach_m3);
+    const double crack_m2 = kMinCrackShare * std::cbrt(reach_m3 * reach_m3);
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
     double limit_Pa = material.impact_limit_Pa(false);
     if (may_bend) limit_Pa = std::min(limit_Pa, material.impact_limit_Pa(true));
@@ -101,14 +103,15 @@ void set_least(const World& world, Actor& actor) {
                                material.strength_Ns ? 0 : limit_Pa / material.impedance_Pa_s_m());
     actor.least_slow_J = std::min(actor.least_slow_J, material.strain_energy_J(limit_Pa, reach_m3));
   }
-  if (!feels_pushes(world, actor)) return;
+  if (!reports_contact_loads(world, actor)) return;
   const double convex_m3 = actor.volume_m3 / static_cast<double>(actor.structure.size());
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     if (!material.breaks_by_load()) continue;
-    if (material.breakable() && actor.structure.bond_count() > kMostBondsStruck) continue;
-    // A block that is pulled and bent both ways, by σ at its corner, holds the energy σ²V / 14 E.
-    const double limit_Pa = material.weakest_Pa();
+    if (material.breakable() && actor.structure.bond_count() > kMaxImpactBonds) continue;
+    // A block with stress σ at its corner by tension and bending about both axes has the energy σ²V
+    // / 14 E.
+    const double limit_Pa = material.min_stress_limit_Pa();
     actor.stress.least_J =
         std::min(actor.stress.least_J, limit_Pa * limit_Pa / (14 * material.youngs_Pa) * convex_m3);
   }
@@ -116,10 +119,10 @@ void set_least(const World& world, Actor& actor) {
 
 Actor make_actor(World& world, const Compound& compound) {
   Actor actor;
-  actor.key = actor.root_key = actor.shown_key = world.actors.new_key();
+  actor.key = actor.root_key = actor.last_frame_key = world.actors.new_key();
   actor.structure = Structure(compound);
   actor.is_static = actor.structure.is_anchored();
-  actor.weight = weigh(compound, *world.materials);
+  actor.weight = mass_of(compound, *world.materials);
   actor.volume_m3 = volume(compound);
   actor.materials = materials_of(compound);
   actor.born_step = world.clock.step;
@@ -132,7 +135,7 @@ void set_strength(const World& world, Actor& actor) {
   actor.stress.breakable = !actor.is_kinematic && breaks_by_load(world, actor);
   actor.stress.since_step = world.clock.step;
   if (actor.stress.breakable && !actor.is_static)
-    actor.stress.bursts_s2 = bursting_s2(world, actor);
+    actor.stress.burst_omega2_s2 = burst_omega2_s2_of(world, actor);
   set_least(world, actor);
 }
 
@@ -148,7 +151,7 @@ ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot) {
   return shape;
 }
 
-BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) {
+BodyDesc make_body_desc(const World& world, const Actor& actor, const Motion& motion) {
   BodyDesc body;
   body.com_R = actor.weight.com_R;
   body.X_WB = {motion.X_WR * actor.weight.com_R, motion.X_WR.rotation};
@@ -163,7 +166,7 @@ BodyDesc describe(const World& world, const Actor& actor, const Motion& motion) 
   actor.structure.for_each(
       [&](ConvexSlot slot, const Convex&) { body.shapes.push_back(shape_of(world, actor, slot)); });
   body.tag = actor.key;
-  body.reports_load = feels_pushes(world, actor);
+  body.reports_load = reports_contact_loads(world, actor);
   return body;
 }
 
@@ -186,8 +189,8 @@ void add_compounds(World& world, std::span<const Solid> solids) {
     actors.push_back(make_actor(world, solid.compound));
     const Actor& actor = actors.back();
     const Vec3 com_W = solid.X_WR * actor.weight.com_R;
-    bodies.push_back(
-        describe(world, actor, {solid.X_WR, {com_W, solid.velocity_W, solid.angular_velocity_W}}));
+    bodies.push_back(make_body_desc(
+        world, actor, {solid.X_WR, {com_W, solid.velocity_W, solid.angular_velocity_W}}));
   }
   world.meshes.add_to(actors, {});
   const std::vector<BodyId> ids = world.physics->replace({}, bodies);
@@ -201,7 +204,7 @@ void add_ball(World& world, const Ball& ball) {
   const Material& material = world.material(ball.material);
   const double radius = ball.radius_m;
   Actor actor;
-  actor.key = actor.root_key = actor.shown_key = world.actors.new_key();
+  actor.key = actor.root_key = actor.last_frame_key = world.actors.new_key();
   actor.volume_m3 = ball_volume_m3(radius);
   actor.weight.mass_kg = ball_mass_kg(ball, *world.materials);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();

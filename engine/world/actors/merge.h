@@ -1,4 +1,4 @@
-// Two actors become one. Internal to engine/world.
+// Merging of two actors. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace sunder {
 
-/// Actor `key` takes in actor `other`, as `rejoined` says, whose rest frame has the pose X_AB in
-/// that of `key`. The other is gone then, and so are joints between them; those of both go on. One
-/// that is static stays as it is; momentum and angular momentum are kept.
+/// Merges actor `other`, whose rest frame has the pose X_AB in that of `key`, into actor `key` by
+/// `rejoined`, and erases it. Joints between the two are removed, those with others stay. A static
+/// actor stays as it is; momentum and angular momentum are conserved.
 void merge(World& world, std::uint32_t key, std::uint32_t other, const Rejoined& rejoined,
            const Pose& X_AB);
 

@@ -22,22 +22,22 @@ std::shared_ptr<const MeshStore> Meshes::publish() {
   return store_;
 }
 
-void Meshes::add_to(std::span<Actor> actors, const DrawnBefore& old) {
+void Meshes::add_to(std::span<Actor> actors, const DrawnConvexes& old) {
   for (Actor& actor : actors) {
     actor.hidden = hidden_faces(actor.structure, actor.structure.slots());
-    actor.meshes.assign(actor.structure.slot_count(), kUndrawn);
+    actor.meshes.assign(actor.structure.slot_count(), kMeshPending);
     actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
       MeshIndex& mesh = actor.meshes[slot.value];
       const auto known = old.find(&convex);
       if (known != old.end() && known->second.hidden == actor.hidden[slot.value]) {
         mesh = known->second.mesh;
       }
-      if (mesh == kUndrawn) undrawn_.push_back({actor.key, slot});
+      if (mesh == kMeshPending) pending_.push_back({actor.key, slot});
     });
   }
 }
 
-void Meshes::renew(Actor& actor, std::span<const ConvexSlot> slots) {
+void Meshes::update(Actor& actor, std::span<const ConvexSlot> slots) {
   std::vector<std::vector<std::uint8_t>> hidden = hidden_faces(actor.structure, slots);
   actor.hidden.resize(actor.structure.slot_count());
   actor.meshes.resize(actor.structure.slot_count());
@@ -45,28 +45,28 @@ void Meshes::renew(Actor& actor, std::span<const ConvexSlot> slots) {
     std::vector<std::uint8_t>& before = actor.hidden[slots[i].value];
     if (before == hidden[i]) continue;
     before = std::move(hidden[i]);
-    actor.meshes[slots[i].value] = kUndrawn;
-    undrawn_.push_back({actor.key, slots[i]});
+    actor.meshes[slots[i].value] = kMeshPending;
+    pending_.push_back({actor.key, slots[i]});
   }
 }
 
-void Meshes::show(Actor& actor, ConvexSlot slot, std::shared_ptr<const Mesh> mesh) {
+void Meshes::override_mesh(Actor& actor, ConvexSlot slot, std::shared_ptr<const Mesh> mesh) {
   MeshIndex& shown = actor.meshes[slot.value];
   if (mesh) {
     shown = add(std::move(mesh));
-  } else if (shown != kUndrawn) {
-    shown = kUndrawn;
-    undrawn_.push_back({actor.key, slot});
+  } else if (shown != kMeshPending) {
+    shown = kMeshPending;
+    pending_.push_back({actor.key, slot});
   }
 }
 
 void Meshes::draw(Actors& actors) {
-  std::vector<Undrawn> todo = std::exchange(undrawn_, {});
+  std::vector<Pending> todo = std::exchange(pending_, {});
   std::ranges::sort(todo);
   todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
-  std::erase_if(todo, [&](const Undrawn& one) {
+  std::erase_if(todo, [&](const Pending& one) {
     const Actor* actor = actors.find(one.key);
-    return !actor || actor->meshes[one.slot.value] != kUndrawn;
+    return !actor || actor->meshes[one.slot.value] != kMeshPending;
   });
   std::vector<std::shared_ptr<const Mesh>> made(todo.size());
   for_chunks(todo.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -1,4 +1,4 @@
-// What is drawn of the actors. Internal to engine/world.
+// Meshes of the actors. Internal to engine/world.
 #pragma once
 
 #include <memory>
@@ -10,42 +10,42 @@
 
 namespace sunder {
 
-/// How a convex is drawn.
+/// Mesh of a convex, and its hidden faces.
 struct Drawn {
-  MeshIndex mesh;  ///< none() where nothing shows.
+  MeshIndex mesh;  ///< none() if invisible.
   std::vector<std::uint8_t> hidden;
 };
-using DrawnBefore = std::unordered_map<const Convex*, Drawn>;
+using DrawnConvexes = std::unordered_map<const Convex*, Drawn>;
 
-/// The meshes of a run. What is new is drawn when somebody looks: by draw(), before a snapshot.
+/// All meshes of a run. New meshes are made by draw(), before a snapshot.
 class Meshes {
  public:
   MeshIndex add(std::shared_ptr<const Mesh> mesh);
-  /// Gives new actors their meshes; convexes that look as they did in `old` keep theirs.
-  void add_to(std::span<Actor> actors, const DrawnBefore& old);
-  /// Draws convexes of an actor anew whose faces are hidden otherwise than before; slots may be
+  /// Requests meshes for new actors; convexes with the same hidden faces as in `old` keep theirs.
+  void add_to(std::span<Actor> actors, const DrawnConvexes& old);
+  /// Requests new meshes for convexes of an actor whose hidden faces have changed; slots may be
   /// new.
-  void renew(Actor& actor, std::span<const ConvexSlot> slots);
-  /// Draws a convex of an actor otherwise than it is; null: as it is.
-  void show(Actor& actor, ConvexSlot slot, std::shared_ptr<const Mesh> mesh);
-  /// Leaves it out.
+  void update(Actor& actor, std::span<const ConvexSlot> slots);
+  /// Replaces the mesh of a convex; null restores its own mesh.
+  void override_mesh(Actor& actor, ConvexSlot slot, std::shared_ptr<const Mesh> mesh);
+  /// Makes a convex invisible.
   void hide(Actor& actor, ConvexSlot slot) { actor.meshes[slot.value] = {}; }
-  /// Makes the meshes that are still missing.
+  /// Makes the requested meshes.
   void draw(Actors& actors);
-  /// All there are, for a frame: they stay as they are.
+  /// Returns all meshes for a frame; they do not change afterwards.
   std::shared_ptr<const MeshStore> publish();
 
  private:
-  /// A convex of an actor that is to be drawn anew.
-  struct Undrawn {
+  /// A convex whose mesh has been requested.
+  struct Pending {
     std::uint32_t key = 0;
     ConvexSlot slot;
-    auto operator<=>(const Undrawn&) const = default;
+    auto operator<=>(const Pending&) const = default;
   };
 
   std::shared_ptr<MeshStore> store_ = std::make_shared<MeshStore>();
-  bool published_ = false;        ///< A frame holds the store: copy before the next change.
-  std::vector<Undrawn> undrawn_;  ///< Since the last draw().
+  bool published_ = false;        ///< A frame shares the store: copy before a change.
+  std::vector<Pending> pending_;  ///< Requests since the last draw().
 };
 
 }  // namespace sunder

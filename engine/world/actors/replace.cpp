@@ -26,20 +26,20 @@ double kinetic_J_of(const World& world, std::span<const Actor> actors) {
   return sum;
 }
 
-/// Whether a piece is a body: anchored, held by a hinge, or large enough.
+/// Returns true if a piece becomes a body: if it is anchored, held by a hinge, or large enough.
 bool is_body(const World& world, const Compound& piece, bool hinged) {
   if (piece.is_anchored() || hinged) return true;
   return volume(piece) >= world.material(piece.convexes[0]->material).smallest_piece_m3;
 }
 
-/// Whether a hinge of the edit holds a piece, as exposed faces name it.
+/// Returns true if a hinge of the edit holds a piece, numbered as in exposed faces.
 bool is_hinged(const BreakEdit& edit, std::uint32_t piece) {
   return std::ranges::any_of(edit.hinges, [&](const PlasticHinge& hinge) {
     return hinge.piece_a == piece || hinge.piece_b == piece;
   });
 }
 
-/// Momentum of what the pieces leave of the parent: debris flies on with the parent's motion.
+/// Returns the momentum of the debris: the parent without the pieces, moving as the parent did.
 Vec3 debris_momentum(const Actor& parent, std::span<const Actor> pieces, const Motion& motion) {
   double mass = parent.weight.mass_kg;
   Vec3 moment_R = Vec3::Zero();
@@ -51,13 +51,14 @@ Vec3 debris_momentum(const Actor& parent, std::span<const Actor> pieces, const M
          motion.field.angular_velocity_W.cross(motion.X_WR.rotation * moment_R);
 }
 
-/// What leaves a structure (sign 1), and what comes to it (−1), convexes and ghosts.
+/// Calls `visit` with the convexes and ghosts that leave a structure (times the ghost's sign) and
+/// with those added to it (times −1).
 template <class Visit>
 void for_each_change(const Structure& structure, const BreakEdit& edit, const Visit& visit) {
   std::vector<std::uint32_t> ghosts;
   for (const ConvexSlot slot : edit.removed) {
     visit(*structure.convex(slot), 1.0);
-    const auto of_slot = structure.ghosts_of(slot);
+    const auto of_slot = structure.ghost_indices(slot);
     ghosts.insert(ghosts.end(), of_slot.begin(), of_slot.end());
   }
   std::ranges::sort(ghosts);
@@ -70,16 +71,16 @@ void for_each_change(const Structure& structure, const BreakEdit& edit, const Vi
   for (const Ghost& ghost : edit.ghosts) visit(*ghost.convex, -static_cast<double>(ghost.sign));
 }
 
-/// Slots that may look otherwise after the edit: beside what goes, or beside what overlaps that;
-/// and the new ones.
-std::vector<ConvexSlot> changed_looks(const Structure& structure, const BreakEdit& edit) {
-  std::vector<ConvexSlot> slots, heap;
+/// Returns the slots whose faces may change visibility by the edit: neighbours of removed convexes
+/// and of convexes that overlap these, and the new slots.
+std::vector<ConvexSlot> slots_to_redraw(const Structure& structure, const BreakEdit& edit) {
+  std::vector<ConvexSlot> slots, overlapping;
   const auto add_neighbours = [&](ConvexSlot slot) {
     for (const Link& link : structure.links(slot)) slots.push_back(link.other);
   };
   const auto add_overlapped = [&](ConvexSlot slot) {
-    for (const std::uint32_t number : structure.ghosts_of(slot)) {
-      for (const std::uint32_t other : structure.ghost(number).of) heap.emplace_back(other);
+    for (const std::uint32_t number : structure.ghost_indices(slot)) {
+      for (const std::uint32_t other : structure.ghost(number).of) overlapping.emplace_back(other);
     }
   };
   for (const ConvexSlot slot : edit.removed) {
@@ -89,11 +90,11 @@ std::vector<ConvexSlot> changed_looks(const Structure& structure, const BreakEdi
   for (const Bond& bond : edit.cut)
     slots.insert(slots.end(), {ConvexSlot(bond.a), ConvexSlot(bond.b)});
   std::unordered_set<std::uint32_t> known;
-  for (std::size_t i = 0; i < heap.size(); ++i) {
-    if (!known.insert(heap[i].value).second) continue;
-    slots.push_back(heap[i]);
-    add_neighbours(heap[i]);
-    add_overlapped(heap[i]);
+  for (std::size_t i = 0; i < overlapping.size(); ++i) {
+    if (!known.insert(overlapping[i].value).second) continue;
+    slots.push_back(overlapping[i]);
+    add_neighbours(overlapping[i]);
+    add_overlapped(overlapping[i]);
   }
   std::ranges::sort(slots);
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
@@ -105,44 +106,45 @@ std::vector<ConvexSlot> changed_looks(const Structure& structure, const BreakEdi
   return slots;
 }
 
-/// Pieces on their way into the world.
+/// Pieces that are being added to the world.
 struct Pieces {
   std::vector<Actor> actors;
   std::vector<BodyDesc> bodies;
 
-  /// A body, or debris if it is too small. Returns its key.
+  /// Adds a piece as a body, or as debris if too small. Returns its key.
   std::uint32_t add(World& world, const Compound& compound, bool hinged, const Actor& parent,
                     const Motion& motion) {
     if (!is_body(world, compound, hinged)) {
       note_chip(world, compound, motion);
-      return kNobodyKey;
+      return kNoActorKey;
     }
     Actor& piece = actors.emplace_back(make_actor(world, compound));
-    // What hangs on by a hinge is what it was to whoever strikes it.
+    // A piece that a hinge holds can break again in this step, as its parent could.
     piece.born_step = hinged ? parent.born_step : world.clock.step + 1;
     piece.root_key = parent.root_key;
-    piece.shown_key = parent.shown_key;
+    piece.last_frame_key = parent.last_frame_key;
     piece.name = parent.name;
     piece.rejoined = parent.rejoined;
-    set_least(world, piece);  // of a fragment
+    set_least(world, piece);  // recomputed, as it is a fragment
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
-    world.ledger.debris_mass_kg -= piece.weight.mass_kg;
-    bodies.push_back(describe(world, piece, motion));
+    world.conservation.debris_mass_kg -= piece.weight.mass_kg;
+    bodies.push_back(make_body_desc(world, piece, motion));
     return piece.key;
   }
 };
 
-DrawnBefore looks_of(const Actor& actor, std::span<const ConvexSlot> slots) {
-  DrawnBefore looks;
+DrawnConvexes drawn_convexes(const Actor& actor, std::span<const ConvexSlot> slots) {
+  DrawnConvexes drawn_before;
   for (const ConvexSlot slot : slots) {
-    looks[actor.structure.convex(slot).get()] = {actor.meshes[slot.value],
-                                                 actor.hidden[slot.value]};
+    drawn_before[actor.structure.convex(slot).get()] = {actor.meshes[slot.value],
+                                                        actor.hidden[slot.value]};
   }
-  return looks;
+  return drawn_before;
 }
 
-/// Takes the convexes that went out of the body of what stands, and of what is known of it.
-void stay(World& world, Actor& actor, const BreakEdit& edit, std::span<const ConvexSlot> changed) {
+/// Removes the convexes of the edit from the body of an actor that stays, and resets its state.
+void edit_remaining_body(World& world, Actor& actor, const BreakEdit& edit,
+                         std::span<const ConvexSlot> changed) {
   std::vector<std::uint32_t> removed_tags;
   for (const ConvexSlot slot : edit.removed) {
     removed_tags.push_back(slot.value);
@@ -155,11 +157,13 @@ void stay(World& world, Actor& actor, const BreakEdit& edit, std::span<const Con
     shapes.push_back(shape_of(world, actor, ConvexSlot(slot)));
   }
   if (edit.changed) world.physics->edit({actor.body, removed_tags, shapes});
-  world.meshes.renew(actor, changed);
+  world.meshes.update(actor, changed);
   set_least(world, actor);
-  const auto is_gone = [&](const Press& press) { return !actor.structure.has(press.convex); };
-  std::erase_if(actor.stress.pressing, is_gone);
-  std::erase_if(actor.stress.judged, is_gone);
+  const auto is_gone = [&](const AppliedForce& press) {
+    return !actor.structure.has(press.convex);
+  };
+  std::erase_if(actor.stress.mean_forces, is_gone);
+  std::erase_if(actor.stress.evaluated_forces, is_gone);
   actor.stress.settled = false;
   actor.stress.since_step = world.clock.step;
 }
@@ -171,45 +175,46 @@ std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit) {
   return static_cast<std::uint32_t>(edit.loose.pieces.size()) + (stays ? 1 : 0);
 }
 
-bool has_room(const World& world, const BreakEdit& edit, std::size_t to_come) {
-  return world.actors.size() + to_come + edit.loose.pieces.size() <= world.scene.limits.bodies;
+bool fits_body_limit(const World& world, const BreakEdit& edit, std::size_t pieces_planned) {
+  return world.actors.size() + pieces_planned + edit.loose.pieces.size() <=
+         world.scene.limits.bodies;
 }
 
-BreakEvent break_of(const World& world, const Actor& actor, MaterialIndex material) {
+BreakEvent make_break_event(const World& world, const Actor& actor, MaterialIndex material) {
   BreakEvent event;
   event.time_s = world.clock.time_s();
   event.parent_key = actor.key;
   event.child_keys = {actor.key};
   event.material = material;
-  event.before_key = actor.shown_key;
+  event.previous_key = actor.last_frame_key;
   event.name = actor.name;
   event.pieces = 1;
   return event;
 }
 
-std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit& edit) {
+std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdit& edit) {
   Actor& parent = *world.actors.find(key);
   const Motion motion = motion_of(parent, world.physics->state(parent.body));
   std::vector<ConvexSlot> changed;
-  if (parent.is_static) changed = changed_looks(parent.structure, edit);
-  DrawnBefore looks = looks_of(parent, edit.removed);
-  double left_kg = 0, left_m3 = 0;
+  if (parent.is_static) changed = slots_to_redraw(parent.structure, edit);
+  DrawnConvexes drawn_before = drawn_convexes(parent, edit.removed);
+  double removed_kg = 0, removed_m3 = 0;
   for_each_change(parent.structure, edit, [&](const Convex& convex, double sign) {
-    left_m3 += sign * convex.solid.volume_m3;
-    left_kg += sign * convex.solid.volume_m3 * world.material(convex.material).density_kg_m3;
+    removed_m3 += sign * convex.solid.volume_m3;
+    removed_kg += sign * convex.solid.volume_m3 * world.material(convex.material).density_kg_m3;
   });
   parent.structure.apply(edit);
   ++parent.edits;
   const bool stays = parent.is_static && parent.structure.is_anchored();
 
   Pieces pieces;
-  std::vector<std::uint32_t> keys{stays ? parent.key : kNobodyKey};  // as exposed faces name them
-  world.ledger.debris_mass_kg += stays ? left_kg : parent.weight.mass_kg;
+  std::vector<std::uint32_t> keys{stays ? parent.key : kNoActorKey};  // indexed as in exposed faces
+  world.conservation.debris_mass_kg += stays ? removed_kg : parent.weight.mass_kg;
   if (!stays && !parent.structure.empty()) {
     const Compound rest = parent.structure.compound();
     parent.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
-      if (slot.value >= parent.meshes.size()) return;  // new
-      looks[&convex] = {parent.meshes[slot.value], parent.hidden[slot.value]};
+      if (slot.value >= parent.meshes.size()) return;  // new slots
+      drawn_before[&convex] = {parent.meshes[slot.value], parent.hidden[slot.value]};
     });
     keys[0] = pieces.add(world, rest, is_hinged(edit, 0), parent, motion);
   }
@@ -218,24 +223,24 @@ std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit&
     keys.push_back(pieces.add(world, piece, is_hinged(edit, number), parent, motion));
   }
   note_exposed(world, parent.structure, edit, motion, keys);
-  world.meshes.add_to(pieces.actors, looks);
+  world.meshes.add_to(pieces.actors, drawn_before);
   const Vec3 before = momentum_of(world, std::span(&parent, 1));
   const double before_J = kinetic_J_of(world, std::span(&parent, 1));
   std::vector<BodyId> ids;
   if (stays) {
-    parent.weight.mass_kg -= left_kg;
-    parent.volume_m3 -= left_m3;
-    stay(world, parent, edit, changed);
+    parent.weight.mass_kg -= removed_kg;
+    parent.volume_m3 -= removed_m3;
+    edit_remaining_body(world, parent, edit, changed);
     ids = world.physics->replace({}, pieces.bodies);
   } else {
     ids = world.physics->replace(std::span(&parent.body, 1), pieces.bodies);
   }
   for (std::size_t i = 0; i < ids.size(); ++i) pieces.actors[i].body = ids[i];
-  world.ledger.report.joints_lost +=
-      world.joints.follow(*world.physics, parent, stays, pieces.actors);
-  EnergyFlows& energy = world.ledger.report.energy;
+  world.conservation.report.joints_lost +=
+      world.joints.reassign_ends(*world.physics, parent, stays, pieces.actors);
+  EnergyFlows& energy = world.conservation.report.energy;
   const double lost_J = before_J - kinetic_J_of(world, pieces.actors);
-  if (parent.is_static) {  // what was kinematic moves on as it did
+  if (parent.is_static) {  // a kinematic parent moves on unchanged
     energy.script -= lost_J;
   } else {
     energy.debris += lost_J;
@@ -243,12 +248,12 @@ std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit&
   if (!parent.is_static) {
     const Vec3 after =
         momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);
-    world.ledger.momentum_error_Ns += (after - before).norm();
+    world.conservation.momentum_error_Ns += (after - before).norm();
   }
-  join_hinges(world, parent, edit, pieces.actors, keys);
+  add_hinges(world, parent, edit, pieces.actors, keys);
   if (!stays) world.actors.erase(world.actors.place_of(parent));
   for (Actor& piece : pieces.actors) world.actors.add(std::move(piece));
-  std::erase(keys, kNobodyKey);
+  std::erase(keys, kNoActorKey);
   return {keys.begin(), keys.end()};
 }
 

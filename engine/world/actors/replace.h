@@ -1,4 +1,4 @@
-// What a break does to an actor: pieces come off it. Internal to engine/world.
+// Breaking of actors into pieces. Internal to engine/world.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,20 @@
 
 namespace sunder {
 
-/// Pieces that an edit makes of a structure, what stays of it included.
+/// Returns the number of pieces after an edit of a structure, the remaining structure included.
 std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit);
 
-/// Whether the limit of bodies allows for the pieces that come off, with so many others to come.
-bool has_room(const World& world, const BreakEdit& edit, std::size_t to_come = 0);
+/// Returns true if the limit of bodies allows the pieces of an edit, with `pieces_planned` other
+/// pieces planned.
+bool fits_body_limit(const World& world, const BreakEdit& edit, std::size_t pieces_planned = 0);
 
-/// The event of a break of an actor now, by whose material it broke; its pieces are not known yet.
-BreakEvent break_of(const World& world, const Actor& actor, MaterialIndex material);
+/// Returns a new event for a break of an actor, at present, in this material; without its pieces.
+BreakEvent make_break_event(const World& world, const Actor& actor, MaterialIndex material);
 
-/// Breaks the actor `key`. One that is still anchored stays and loses what came off;
-/// another gives way to its pieces, what stays of its structure first. Pieces move as it did (each
-/// with its velocity field, so that linear and angular momentum stay); the smallest become debris.
-/// Returns the keys of the pieces that are bodies, `key` first if the actor stays.
-std::vector<std::uint64_t> carry_out(World& world, std::uint32_t key, BreakEdit& edit);
+/// Breaks the actor `key`. If it is still anchored, it stays without the pieces; otherwise it is
+/// replaced by its pieces, the remaining structure first. Pieces keep the parent's velocity field,
+/// which conserves linear and angular momentum; the smallest become debris. Returns the keys of the
+/// pieces that are bodies, `key` first if the actor stays.
+std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdit& edit);
 
 }  // namespace sunder

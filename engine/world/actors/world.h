@@ -1,6 +1,6 @@
-// What there is in the running world. Internal to engine/world; users see Simulation and Frame.
+// State of the running world: read World. Internal to engine/world; users see Simulation and Frame.
 //
-// Each part keeps its own order; what belongs to one stage alone is kept by that stage.
+// Each part keeps its own invariants; state of a single stage is in that stage.
 #pragma once
 
 #include <memory>
@@ -14,35 +14,38 @@
 #include "engine/model/scene.h"
 #include "engine/world/actors/actors.h"
 #include "engine/world/actors/clock.h"
+#include "engine/world/actors/conservation.h"
 #include "engine/world/actors/exposed.h"
 #include "engine/world/actors/joints.h"
 #include "engine/world/actors/landscape.h"
-#include "engine/world/actors/ledger.h"
 #include "engine/world/actors/meshes.h"
 
 namespace sunder {
 
 struct World {
-  const Scene scene;  ///< As it was given.
+  const Scene scene;  ///< As given.
   const std::shared_ptr<const std::vector<Material>> materials;
-  const std::shared_ptr<const std::vector<std::string>> names;  ///< Solids, balls, then shots.
-  const std::shared_ptr<const std::vector<Paint>> paints;       ///< Null: none.
+  /// Names of solids, balls, then shots.
+  const std::shared_ptr<const std::vector<std::string>> names;
+  const std::shared_ptr<const std::vector<Appearance>> paints;  ///< Null if there are none.
   const std::unique_ptr<Physics> physics;
   Clock clock;
   Actors actors;
   Joints joints;
   Meshes meshes;
   Landscape landscape;
-  Ledger ledger;
-  std::uint64_t next_event = 1;    ///< Names the planes that breaks and bends make.
-  std::optional<Exposed> exposed;  ///< None where nobody wants to know: without particles.
+  Conservation conservation;
+  std::uint64_t next_event =
+      1;  ///< Number of the next event, which names the planes that it makes.
+  std::optional<Exposed> exposed;  ///< None in a run without particles.
 
   World(Scene given, std::unique_ptr<Physics> moves)
       : scene(std::move(given)),
         materials(std::make_shared<const std::vector<Material>>(scene.materials)),
-        names(std::make_shared<const std::vector<std::string>>(names_in(scene))),
-        paints(scene.paints.empty() ? nullptr
-                                    : std::make_shared<const std::vector<Paint>>(scene.paints)),
+        names(std::make_shared<const std::vector<std::string>>(object_names(scene))),
+        paints(scene.paints.empty()
+                   ? nullptr
+                   : std::make_shared<const std::vector<Appearance>>(scene.paints)),
         physics(std::move(moves)),
         clock(scene.accuracy) {}
 

@@ -1,4 +1,4 @@
-// The steps of a decision, in their order.
+// Steps of the stage, in order of execution.
 #include "engine/world/break/break_stage.h"
 
 #include <algorithm>
@@ -9,39 +9,40 @@
 
 #include "engine/base/parallel.h"
 #include "engine/model/work_log.h"
-#include "engine/world/actors/bearing.h"
+#include "engine/world/actors/load_case.h"
 #include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/clusters.h"
 
 namespace sunder {
 namespace {
 
-// A part takes about as long to cut as so many visits of bonds in a solve for stress.
-constexpr std::uint64_t kVisitsAPart = 160;
-// And as a probe's visits of contacts.
-constexpr std::uint64_t kLooksAPart = 1000;
-// Beyond the budget, an impact with less than this share of all kinetic energy holds: it does not
-// wait, and is not looked at.
-constexpr double kWorthWaiting = 1e-3;
-constexpr std::size_t kAskedAtOnce = 16;
-constexpr int kRounds = 8;  // solids that can break one behind the other within one step
+// Bond evaluations in a solve for stress that take about as long as one part to cut.
+constexpr std::uint64_t kBondEvaluationsPerPart = 160;
+// Contact evaluations of a probe that take about as long as one part to cut.
+constexpr std::uint64_t kContactEvaluationsPerPart = 1000;
+// Over the budget, an impact with less than this share of all kinetic energy breaks nothing: it is
+// neither probed nor deferred.
+constexpr double kMinDeferredShare = 1e-3;
+constexpr std::size_t kProbesAtOnce = 16;  // between two checks of the budget
+// Most rounds of breaks in a step: solids that break one behind the other.
+constexpr int kRounds = 8;
 
 bool parts_at_bonds(const Material& material) {
   return material.breaks_by_load() && !material.yields();
 }
 
-/// The impacts that a probe's loads amount to, if they are strong enough for the material.
+/// Makes the planned breaks of a trial from the loads that are strong enough for the material.
 void add_impacts(const World& world, Trial& trial) {
   trial.planned.clear();
   const BodyStates states = world.physics->states();
   for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
-    const ProbeLoad& load = trial.loads[i];
-    const Actor& actor = *world.actors.find(trial.probe.bodies()[load.body].key);
+    const ImpactLoad& load = trial.loads[i];
+    const Actor& actor = *world.actors.find(trial.probe->bodies()[load.body].key);
     const ConvexSlot slot(load.shape);
     const Material& material = world.material(actor.structure.convex(slot)->material);
     PlannedBreak planned;
     planned.load = i;
-    planned.striker = trial.probe.bodies()[load.striker].key;
+    planned.striker = trial.probe->bodies()[load.striker].key;
     planned.speed_m_s = load.speed_m_s;
     planned.impulse_Ns = load.impulse_Ns;
     planned.by_pattern =
@@ -50,18 +51,18 @@ void add_impacts(const World& world, Trial& trial) {
     planned.by_pattern |= !material.breakable() && parts_at_bonds(material) &&
                           load.work_J > actor.stress.least_J &&
                           breaks_before_waves_arrive(material, load.speed_m_s);
-    planned.far_J = load.work_J;
+    planned.transmitted_J = load.work_J;
     planned.by_stress =
         load.work_J > actor.stress.least_J && load.impulse_Ns > actor.stress.least_Ns;
     if (!planned.by_pattern && !planned.by_stress) continue;
     const Quat R_of_W = states[actor.body].X_WB.rotation.conjugate();
-    for (const ProbePush& push : load.pushes) {
-      const Vec3 at_R = R_of_W * push.arm_W + actor.weight.com_R;
-      const Vec3 impulse_R = R_of_W * push.impulse_W, angular_R = R_of_W * push.angular_W;
-      if (push.shape == ProbePush::kNearest) {
+    for (const ProbeImpulse& impulse : load.impulses) {
+      const Vec3 at_R = R_of_W * impulse.arm_W + actor.weight.com_R;
+      const Vec3 impulse_R = R_of_W * impulse.impulse_W, angular_R = R_of_W * impulse.angular_W;
+      if (impulse.shape == ProbeImpulse::kNearestShape) {
         add_joint_load(actor.structure, at_R, impulse_R, angular_R, planned.impulses);
       } else {
-        planned.impulses.push_back({ConvexSlot(push.shape), impulse_R, at_R, angular_R});
+        planned.impulses.push_back({ConvexSlot(impulse.shape), impulse_R, at_R, angular_R});
       }
     }
     planned.impact.key = actor.key;
@@ -73,10 +74,10 @@ void add_impacts(const World& world, Trial& trial) {
   }
 }
 
-/// Whether what a trial hits is among what others broke: a body that is gone, or, of one that
-/// stands, the convex hit, or where a joint may have been.
+/// Returns true if a body of a trial was broken by other trials: if the body is gone, a convex with
+/// a contact is gone, or the body has a joint or rope.
 bool is_stale(const World& world, const Trial& trial, std::span<const std::uint32_t> broken) {
-  const std::vector<ProbeBody>& bodies = trial.probe.bodies();
+  const std::vector<ProbeBody>& bodies = trial.probe->bodies();
   for (const std::uint32_t key : broken) {
     const auto body = std::ranges::find(bodies, key, &ProbeBody::key);
     if (body == bodies.end()) continue;
@@ -86,60 +87,61 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
     const auto is_gone = [&](std::uint32_t shape) {
       return !actor->structure.has(ConvexSlot(shape));
     };
-    for (const ProbeContact& contact : trial.probe.contacts()) {
+    for (const ProbeContact& contact : trial.probe->contacts()) {
       if (contact.a == index && (contact.rope || is_gone(contact.shape_a))) return true;
       if (contact.b == index && (contact.rope || is_gone(contact.shape_b))) return true;
     }
-    for (const ProbeJoint& joint : trial.probe.joints()) {
+    for (const ProbeJoint& joint : trial.probe->joints()) {
       if (joint.a == index || joint.b == index) return true;
     }
   }
   return false;
 }
 
-bool is_worth_waiting(const World& world, const Trial& trial) {
+bool is_worth_deferring(const World& world, const Trial& trial) {
   return std::ranges::any_of(trial.planned, [&](const PlannedBreak& planned) {
-    return planned.impact.energy_J > kWorthWaiting * world.ledger.kinetic_J;
+    return planned.impact.energy_J > kMinDeferredShare * world.conservation.kinetic_J;
   });
 }
 
-/// True if some impact of a trial may break something, which is not known yet, and none does.
+/// Returns true if no impact of a trial breaks anything, but the plan of one is not finished.
 bool is_undecided(const Trial& trial) {
   return std::ranges::none_of(trial.planned, &PlannedBreak::breaks) &&
          std::ranges::any_of(
              trial.planned, [](const PlannedBreak& planned) { return planned.stressed.undecided; });
 }
 
-/// Keeps how far plans by stress have come, for the next step.
-void keep_progress(World& world, std::span<PlannedBreak> all) {
+/// Saves the progress of unfinished plans by stress for the next step.
+void save_progress(World& world, std::span<PlannedBreak> all) {
   for (PlannedBreak& planned : all)
     if (planned.stressed.undecided)
       world.actors.find(planned.impact.key)->stress.memory = std::move(planned.stressed.memory);
 }
 
-/// Breaks what a trial can pay for, if anything, and adds it to `all_broken`.
-bool settle(World& world, const Breaker& breaker, Trial& trial,
-            std::vector<std::uint32_t>& all_broken) {
+/// Carries out the breaks of a trial for which its energy suffices, and appends the keys of the
+/// broken actors to `all_broken`. Returns false if there are none.
+bool carry_out_breaks(World& world, const Breaker& breaker, Trial& trial,
+                      std::vector<std::uint32_t>& all_broken) {
   std::vector<ProbeBreak> wanted;
   std::vector<std::uint32_t> of_load(trial.loads.size());
-  std::size_t pieces = 0;  // of all that break
+  std::size_t pieces = 0;  // of the breaks so far
   for (std::uint32_t i = 0; i < trial.planned.size(); ++i) {
     const PlannedBreak& planned = trial.planned[i];
     of_load[planned.load] = i;
-    const Verdict verdict = verdict_on(world, planned, pieces);
-    note_verdict(world, planned, verdict);
-    if (verdict != Verdict::kBreaks) continue;
+    const Outcome outcome = outcome_of(world, planned, pieces);
+    record_outcome(world, planned, outcome);
+    if (outcome != Outcome::kBreaks) continue;
     wanted.push_back({planned.load, planned.needed_J});
     pieces += planned.edit.loose.pieces.size();
   }
-  const std::vector<std::uint32_t> broken = trial.probe.release(wanted);
+  const std::vector<std::uint32_t> broken = trial.probe->release(wanted);
   if (broken.empty()) return false;
-  WorkSpan span(world.ledger.work, Stage::kBreak, "breaks carried out");
+  WorkSpan span(world.conservation.work, Stage::kBreak, "breaks carried out");
   span.count(broken.size());
   const auto bends = [&](auto load) { return trial.planned[of_load[load]].only_bends(); };
-  // What only bends is still in the way, and is met as what it has become.
-  EnergyFlows& energy = world.ledger.report.energy;
-  if (!std::ranges::all_of(broken, bends)) energy.contacts -= take_over(world, trial.probe);
+  // If all broken bodies only bend, they stay in the way, and the next round probes them.
+  EnergyFlows& energy = world.conservation.report.energy;
+  if (!std::ranges::all_of(broken, bends)) energy.contacts -= apply_motion(world, *trial.probe);
   for (const std::uint32_t load : broken) {
     PlannedBreak& planned = trial.planned[of_load[load]];
     energy.contacts -= planned.needed_J;
@@ -151,9 +153,9 @@ bool settle(World& world, const Breaker& breaker, Trial& trial,
   return true;
 }
 
-/// Takes out the trials that hit a solid that stands where an earlier one hits it, too: whether it
-/// is still there is only known when that one is decided.
-std::vector<Trial> leave_for_later(const World& world, std::vector<Trial>& trials) {
+/// Removes and returns the trials that strike a static solid that an earlier trial strikes too:
+/// their contacts may be gone once the earlier trial is resolved.
+std::vector<Trial> postpone_conflicts(const World& world, std::vector<Trial>& trials) {
   std::set<std::uint32_t> claimed;
   std::vector<Trial> now, later;
   for (Trial& trial : trials) {
@@ -169,30 +171,30 @@ std::vector<Trial> leave_for_later(const World& world, std::vector<Trial>& trial
   return later;
 }
 
-PlannedBreak planned_by_blast(const Actor& actor, const Impact& impact) {
+PlannedBreak planned_by_blast(const Actor& actor, const ActorImpact& impact) {
   PlannedBreak planned;
   planned.impact = impact;
-  planned.impulses = impact.pushes;
+  planned.impulses = impact.impulses;
   std::erase_if(planned.impulses,
-                [&](const Load& push) { return !actor.structure.has(push.convex); });
-  for (const Load& push : planned.impulses) planned.impulse_Ns += push.force_N.norm();
-  planned.far_J = std::numeric_limits<double>::infinity();
+                [&](const AppliedForce& push) { return !actor.structure.has(push.convex); });
+  for (const AppliedForce& push : planned.impulses) planned.impulse_Ns += push.force_N.norm();
+  planned.transmitted_J = std::numeric_limits<double>::infinity();
   planned.by_pattern = impact.energy_J > 0;
   planned.by_stress = !planned.impulses.empty();
   return planned;
 }
 
-std::vector<Trial> find_trials(World& world, const WaitingRoom& waiting, double least_J) {
-  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters found");
+std::vector<Trial> find_trials(World& world, const DeferredImpacts& deferred, double min_energy_J) {
+  WorkSpan span(world.conservation.work, Stage::kBreak, "clusters found");
   std::vector<Trial> trials;
-  for (BreakProbe& probe : find_clusters(world, waiting, least_J))
+  for (std::unique_ptr<ImpactProbe>& probe : find_clusters(world, deferred, min_energy_J))
     trials.push_back({std::move(probe)});
   span.count(trials.size());
   return trials;
 }
 
 void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
-  WorkSpan span(world.ledger.work, Stage::kBreak, "breaks planned");
+  WorkSpan span(world.conservation.work, Stage::kBreak, "breaks planned");
   span.count(all.size());
   plan_all(world, breaker, all);
   WorkItem parts{Stage::kBreak, "parts cut"}, visits{Stage::kBreak, "bonds visited"};
@@ -201,8 +203,8 @@ void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> a
     for (const Compound& piece : planned->edit.loose.pieces) parts.count += piece.convexes.size();
     visits.count += planned->stressed.work;
   }
-  world.ledger.work.add(parts);
-  world.ledger.work.add(visits);
+  world.conservation.work.add(parts);
+  world.conservation.work.add(visits);
 }
 
 std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
@@ -213,9 +215,9 @@ std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
   return all;
 }
 
-/// After another blast has broken the solid that an impact was to break: puts it on the nearest of
-/// what came of that; false if nothing did.
-bool find_again(const World& world, std::uint32_t root_key, Impact& impact) {
+/// Moves an impact whose solid another blast has broken to the nearest piece of the solid; returns
+/// false if there is no piece.
+bool retarget(const World& world, std::uint32_t root_key, ActorImpact& impact) {
   const Actor* known = world.actors.find(impact.key);
   if (known && known->structure.has(impact.convex)) return true;
   const BodyStates states = world.physics->states();
@@ -223,12 +225,12 @@ bool find_again(const World& world, std::uint32_t root_key, Impact& impact) {
   for (const Actor& actor : world.actors) {
     if (actor.root_key != root_key || actor.structure.empty()) continue;
     const Vec3 point_R = rest_pose(actor, states[actor.body].X_WB).inverse() * impact.point_W;
-    const double distance_m = distance_outside(actor.structure, point_R);
+    const double distance_m = distance_to(actor.structure, point_R);
     if (distance_m >= least_m) continue;
     least_m = distance_m;
     impact.key = actor.key;
     impact.convex = nearest(actor.structure, point_R);
-    impact.pushes.clear();  // they were those on what is gone
+    impact.impulses.clear();  // they acted on convexes that are gone
   }
   return std::isfinite(least_m);
 }
@@ -245,85 +247,88 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
   return true;
 }
 
-/// The probes that have not been asked are followed to their next loads, those with the most energy
-/// first, some at a time so that the budget binds. Those without any are done, and so are those
-/// that come again as they were when they held: what has broken since is no part of them.
-void BreakStage::ask(World& world, std::vector<Trial>& trials) {
-  WorkSpan span(world.ledger.work, Stage::kBreak, "clusters asked");
+/// Probes run in batches, those with the most energy first, so that the budget can stop them. A
+/// probe with the initial state of an earlier one of the step without a break is not run again.
+void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
+  WorkSpan span(world.conservation.work, Stage::kBreak, "clusters asked");
   std::vector<Trial*> due;
   for (Trial& trial : trials) {
-    if (!std::exchange(trial.asked, true)) due.push_back(&trial);
+    if (!std::exchange(trial.loads_known, true)) due.push_back(&trial);
   }
   WorkItem visits{Stage::kBreak, "contacts visited"};
-  for (std::size_t first = 0; first < due.size(); first += kAskedAtOnce) {
-    const double least_J = least_worth_J(world);
+  for (std::size_t first = 0; first < due.size(); first += kProbesAtOnce) {
+    const double min_energy_J = min_impact_energy_J(world);
     const std::span batch =
-        std::span(due).subspan(first, std::min(kAskedAtOnce, due.size() - first));
+        std::span(due).subspan(first, std::min(kProbesAtOnce, due.size() - first));
     for_chunks(batch.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (Trial* trial : batch.subspan(begin, end - begin)) {
-        if (trial->fingerprint == 0) trial->fingerprint = fingerprint(trial->probe);
-        if (!held_.contains(trial->fingerprint)) trial->loads = trial->probe.next(least_J);
+        if (trial->fingerprint == 0) trial->fingerprint = fingerprint(*trial->probe);
+        if (!unbroken_probes_.contains(trial->fingerprint))
+          trial->loads = trial->probe->next(min_energy_J);
       }
     });
-    std::uint64_t looked_at = 0;
+    std::uint64_t evaluations = 0;
     for (Trial* trial : batch) {
-      const std::uint64_t work = trial->probe.work();
-      looked_at += work - std::exchange(trial->charged, work);
+      const std::uint64_t work = trial->probe->work();
+      evaluations += work - std::exchange(trial->charged, work);
     }
-    budget_.charge(looked_at / kLooksAPart);
-    visits.count += looked_at;
+    budget_.charge(evaluations / kContactEvaluationsPerPart);
+    visits.count += evaluations;
   }
-  std::size_t asked = due.size();
+  std::size_t probes_run = due.size();
   for (const Trial& trial : trials) {
-    if (trial.loads.empty() && !held_.insert(trial.fingerprint).second) --asked;
+    if (trial.loads.empty() && !unbroken_probes_.insert(trial.fingerprint).second) --probes_run;
   }
-  span.count(asked);
-  world.ledger.work.add(visits);
+  span.count(probes_run);
+  world.conservation.work.add(visits);
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
 }
 
-double BreakStage::least_worth_J(const World& world) const {
-  return budget_.left() > 0 ? 0 : kWorthWaiting * world.ledger.kinetic_J;
+double BreakStage::min_impact_energy_J(const World& world) const {
+  return budget_.left() > 0 ? 0 : kMinDeferredShare * world.conservation.kinetic_J;
 }
 
-bool BreakStage::take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all) {
+bool BreakStage::prepare_within_budget(World& world, const Breaker& breaker,
+                                       std::span<PlannedBreak> all) {
   std::uint32_t parts = 0;
   for (PlannedBreak& planned : all) {
     if (planned.by_stress && budget_.spent()) return false;
     if (!planned.by_pattern) continue;
-    prepare(world, breaker, world.next_event++, planned);
+    prepare_command(world, breaker, world.next_event++, planned);
     parts += parts_to_cut(world, planned);
   }
   return budget_.try_spend(parts);
 }
 
-void BreakStage::share_out(std::span<PlannedBreak* const> resumable) const {
+void BreakStage::share_budget(std::span<PlannedBreak* const> resumable) const {
   const auto plans =
       static_cast<std::uint64_t>(std::ranges::count_if(resumable, &PlannedBreak::by_stress));
   for (PlannedBreak* planned : resumable)
-    if (planned->by_stress) planned->most_visits = kVisitsAPart * budget_.left() / plans;
+    if (planned->by_stress)
+      planned->max_bond_evaluations = kBondEvaluationsPerPart * budget_.left() / plans;
 }
 
-void BreakStage::wait(World& world, Trial& trial) {
-  trial.probe.pause();
-  world.ledger.report.energy.gravity += take_over(world, trial.probe);
-  waiting_room_.add(world, trial.probe);
+void BreakStage::defer(World& world, Trial& trial) {
+  trial.probe->pause();
+  world.conservation.report.energy.gravity += apply_motion(world, *trial.probe);
+  deferred_impacts_.add(world, *trial.probe);
 }
 
 bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
-                                 std::span<const Impact> impacts) {
-  for (const Impact& impact : impacts) {
-    const auto same = [&](const Impact& known) {
+                                 std::span<const ActorImpact> impacts) {
+  for (const ActorImpact& impact : impacts) {
+    const auto same = [&](const ActorImpact& known) {
       return known.key == impact.key && known.blast == impact.blast;
     };
-    if (std::ranges::none_of(impacts_waiting_, same)) impacts_waiting_.push_back(impact);
+    if (std::ranges::none_of(deferred_blast_impacts_, same))
+      deferred_blast_impacts_.push_back(impact);
   }
   bool broke = false;
-  for (std::vector<Impact> due = std::exchange(impacts_waiting_, {}); !due.empty();) {
+  for (std::vector<ActorImpact> due = std::exchange(deferred_blast_impacts_, {}); !due.empty();) {
     std::vector<PlannedBreak> all;
-    // Of a solid that several blasts break, the next breaks what the one before has left.
-    std::vector<std::pair<std::uint32_t, Impact>> later;  // by root
-    for (const Impact& impact : due) {
+    // If several blasts break a solid, each breaks the pieces that the one before has left.
+    std::vector<std::pair<std::uint32_t, ActorImpact>> later;  // with root_key
+    for (const ActorImpact& impact : due) {
       const Actor* actor = world.actors.find(impact.key);
       if (!actor || !actor->structure.has(impact.convex)) continue;
       const auto same = [&](const PlannedBreak& other) { return other.impact.key == impact.key; };
@@ -332,113 +337,116 @@ bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
         continue;
       }
       PlannedBreak planned = planned_by_blast(*actor, impact);
-      if (take_on(world, breaker, std::span(&planned, 1))) {
+      if (prepare_within_budget(world, breaker, std::span(&planned, 1))) {
         all.push_back(std::move(planned));
       } else {
-        impacts_waiting_.push_back(impact);
+        deferred_blast_impacts_.push_back(impact);
       }
     }
     std::vector<PlannedBreak*> pointers;
     for (PlannedBreak& planned : all) pointers.push_back(&planned);
-    share_out(pointers);
+    share_budget(pointers);
     plan(world, breaker, pointers);
     for (PlannedBreak& planned : all) {
       if (planned.stressed.undecided && !planned.breaks) {
-        keep_progress(world, std::span(&planned, 1));
-        impacts_waiting_.push_back(std::move(planned.impact));
+        save_progress(world, std::span(&planned, 1));
+        deferred_blast_impacts_.push_back(std::move(planned.impact));
         continue;
       }
-      const Verdict verdict = verdict_on(world, planned);
-      note_verdict(world, planned, verdict);
-      if (verdict != Verdict::kBreaks) continue;
+      const Outcome outcome = outcome_of(world, planned);
+      record_outcome(world, planned, outcome);
+      if (outcome != Outcome::kBreaks) continue;
       break_actor(world, breaker, planned);
       broke = true;
     }
     due.clear();
     for (auto& [root_key, impact] : later)
-      if (find_again(world, root_key, impact)) due.push_back(impact);
+      if (retarget(world, root_key, impact)) due.push_back(impact);
   }
   return broke;
 }
 
-bool BreakStage::decide(World& world, const Breaker& breaker, std::vector<Trial> trials,
-                        bool in_time) {
+bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial> trials,
+                         bool rounds_left) {
   bool again = false;
-  std::vector<std::uint32_t> broken;  // since the stale ones were sorted out
+  std::vector<std::uint32_t> broken;  // since stale trials were last removed
   while (!trials.empty()) {
-    ask(world, trials);
+    run_probes(world, trials);
     const auto stale = [&](const Trial& trial) { return is_stale(world, trial, broken); };
     again |= std::erase_if(trials, stale) > 0;
     broken.clear();
     for (Trial& trial : trials) add_impacts(world, trial);
-    std::vector<Trial> next = leave_for_later(world, trials);
-    std::vector<Trial> taken_on;
+    std::vector<Trial> next = postpone_conflicts(world, trials);
+    std::vector<Trial> to_plan;
     for (Trial& trial : trials) {
-      trial.may_wait = is_worth_waiting(world, trial) && waiting_room_.may_wait(world, trial.probe);
-      if (trial.planned.empty() || (in_time && take_on(world, breaker, trial.planned))) {
-        taken_on.push_back(std::move(trial));
-      } else if (trial.may_wait) {
-        wait(world, trial);
+      trial.may_defer =
+          is_worth_deferring(world, trial) && deferred_impacts_.may_defer(world, *trial.probe);
+      if (trial.planned.empty() ||
+          (rounds_left && prepare_within_budget(world, breaker, trial.planned))) {
+        to_plan.push_back(std::move(trial));
+      } else if (trial.may_defer) {
+        defer(world, trial);
       } else {
-        trial.planned.clear();  // all holds
-        taken_on.push_back(std::move(trial));
+        trial.planned.clear();  // nothing breaks
+        to_plan.push_back(std::move(trial));
       }
     }
     std::vector<PlannedBreak*> resumable;
-    for (Trial& trial : taken_on)
-      if (!trial.planned.empty() && waiting_room_.may_wait(world, trial.probe))
+    for (Trial& trial : to_plan)
+      if (!trial.planned.empty() && deferred_impacts_.may_defer(world, *trial.probe))
         for (PlannedBreak& planned : trial.planned) resumable.push_back(&planned);
-    share_out(resumable);
-    const std::vector<PlannedBreak*> all = planned_in(taken_on);
+    share_budget(resumable);
+    const std::vector<PlannedBreak*> all = planned_in(to_plan);
     plan(world, breaker, all);
-    for (const PlannedBreak* planned : all) budget_.charge(planned->stressed.work / kVisitsAPart);
+    for (const PlannedBreak* planned : all)
+      budget_.charge(planned->stressed.work / kBondEvaluationsPerPart);
     const std::uint32_t first_key = world.actors.next_key();
-    for (Trial& trial : taken_on) {
-      if (!stale(trial) && trial.may_wait && is_undecided(trial)) {
-        keep_progress(world, trial.planned);
-        wait(world, trial);
+    for (Trial& trial : to_plan) {
+      if (!stale(trial) && trial.may_defer && is_undecided(trial)) {
+        save_progress(world, trial.planned);
+        defer(world, trial);
         continue;
       }
-      if (stale(trial) || settle(world, breaker, trial, broken)) {
+      if (stale(trial) || carry_out_breaks(world, breaker, trial, broken)) {
         again = true;
         continue;
       }
-      trial.probe.hold();
-      trial.asked = false;
+      trial.probe->hold();
+      trial.loads_known = false;
       next.push_back(std::move(trial));
     }
-    // A piece takes about as long to become a body and meet the others.
+    // Making a body of a piece and colliding it takes about as long as cutting a part.
     budget_.charge(world.actors.next_key() - first_key);
     trials = std::move(next);
   }
   return again;
 }
 
-void BreakStage::run(World& world, const Breaker& breaker, std::span<const Impact> impacts) {
+void BreakStage::run(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts) {
   const auto collide = [&] {
-    const WorkSpan span(world.ledger.work, Stage::kBreak, "contacts found anew");
+    const WorkSpan span(world.conservation.work, Stage::kBreak, "contacts found anew");
     world.physics->collide(world.clock.horizon_s());
-    waiting_room_.forget_driven();
+    deferred_impacts_.invalidate_driven();
   };
   if (break_by_blasts(world, breaker, impacts)) collide();
-  waiting_room_.begin_step(world);
-  held_.clear();
+  deferred_impacts_.begin_step(world);
+  unbroken_probes_.clear();
   for (int round = 0; round <= kRounds; ++round) {
-    const bool in_time = round < kRounds;
-    const bool affordable = in_time && !budget_.spent();
-    if (affordable) waiting_room_.admit();
-    std::vector<Trial> trials = find_trials(world, waiting_room_, least_worth_J(world));
-    if (decide(world, breaker, std::move(trials), in_time)) {
+    const bool rounds_left = round < kRounds;
+    const bool affordable = rounds_left && !budget_.spent();
+    if (affordable) deferred_impacts_.release_first();
+    std::vector<Trial> trials = find_trials(world, deferred_impacts_, min_impact_energy_J(world));
+    if (resolve(world, breaker, std::move(trials), rounds_left)) {
       collide();
-    } else if (!affordable || waiting_room_.queue_empty()) {
+    } else if (!affordable || deferred_impacts_.queue_empty()) {
       break;
     }
   }
-  waiting_room_.end_step(world);
+  deferred_impacts_.end_step(world);
 }
 
-std::uint32_t BreakStage::waiting() const {
-  return static_cast<std::uint32_t>(impacts_waiting_.size()) + waiting_room_.clusters();
+std::uint32_t BreakStage::deferred() const {
+  return static_cast<std::uint32_t>(deferred_blast_impacts_.size()) + deferred_impacts_.clusters();
 }
 
 }  // namespace sunder

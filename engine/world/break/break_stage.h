@@ -1,29 +1,30 @@
-// Stage `break`: what breaks, decided before the solve, so that a wall that breaks does not first
+// Stage `break`: impacts break solids before the solve, so that a wall that breaks does not first
 // stop the ball. Internal to engine/world.
 //
-// Read first: BreakStage::run(), then decide(). Break probes (break_probe.h) tell what the
-// breakable solids would have to bear. A solid breaks by its pattern if the work exceeds the
-// toughness times the crack's area, and the impulse the strength; and at its bonds where the blow
-// overloads them. Exactly the energy of the cracks is taken from the motion; the pieces inherit the
-// velocity field of the whole.
+// Read first: BreakStage::run(), then resolve(). Break probes (break_probe.h) find the impact loads
+// on breakable solids. A solid breaks by its pattern if the work exceeds the toughness times the
+// crack's area, and the impulse the strength; and at the bonds that the impact overloads. Exactly
+// the energy of the cracks is taken from the motion; the pieces inherit the velocity field of the
+// solid.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "engine/model/breaker.h"
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/impact.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
+#include "engine/world/break/deferred_impacts.h"
 #include "engine/world/break/planned_break.h"
-#include "engine/world/break/waiting_room.h"
 
 namespace sunder {
 
-/// What a frame allows for of all that breaking takes, in parts to cut.
+/// Budget of a frame for breaking, in parts to cut.
 class BreakBudget {
  public:
   explicit BreakBudget(std::uint32_t a_frame) : a_frame_(a_frame) {}
@@ -31,11 +32,11 @@ class BreakBudget {
   void begin_frame() { left_ = a_frame_, untouched_ = true; }
   bool spent() const { return left_ == 0 && !untouched_; }
   std::uint32_t left() const { return left_; }
-  /// False if that is more than is left: then nothing is left for what comes later, too, however
-  /// cheap. A frame that has spent none yet can afford anything, or what costs more than a frame
-  /// has would wait for ever.
+  /// Spends `parts`; returns false, and empties the budget, if less is left. The first spending of
+  /// a frame always succeeds: otherwise a break that costs more than a frame's budget would be
+  /// deferred for ever.
   bool try_spend(std::uint32_t parts);
-  /// For what costs nobody knows before: what it has cost is not there for what comes later.
+  /// Spends up to `parts` for work whose cost was not known before it was done.
   void charge(std::uint64_t parts) {
     left_ -= static_cast<std::uint32_t>(std::min<std::uint64_t>(left_, parts));
   }
@@ -43,18 +44,18 @@ class BreakBudget {
  private:
   std::uint32_t a_frame_;
   std::uint32_t left_ = 0;
-  bool untouched_ = true;  ///< Nothing has been taken on yet.
+  bool untouched_ = true;  ///< No call of try_spend() has succeeded yet.
 };
 
-/// A probe under way.
+/// A probe in progress, with its loads and planned breaks.
 struct Trial {
-  BreakProbe probe;
-  std::uint64_t fingerprint = 0;  ///< Of the probe as it began; 0: not known yet.
-  bool asked = false;             ///< What it has to bear is known, but not decided.
-  std::uint64_t charged = 0;      ///< Of the probe's work.
-  std::vector<ProbeLoad> loads = {};
+  std::unique_ptr<ImpactProbe> probe;
+  std::uint64_t fingerprint = 0;  ///< Of the probe's initial state; 0: not computed yet.
+  bool loads_known = false;       ///< `loads` are those of the current event.
+  std::uint64_t charged = 0;      ///< Work of the probe charged to the budget so far.
+  std::vector<ImpactLoad> loads = {};
   std::vector<PlannedBreak> planned = {};
-  bool may_wait = false;  ///< Until what its impacts break is known, or the frame has room for it.
+  bool may_defer = false;  ///< The trial may be deferred to the next step.
 };
 
 class BreakStage {
@@ -62,34 +63,36 @@ class BreakStage {
   explicit BreakStage(const Limits& limits) : budget_(limits.parts_a_frame) {}
 
   void begin_frame() { budget_.begin_frame(); }
-  /// Breaks what `impacts` of blasts, and what approaches, can break; contacts are found anew after
-  /// every round of breaks.
-  void run(World& world, const Breaker& breaker, std::span<const Impact> impacts);
-  /// Impacts that wait for a later step's budget.
-  std::uint32_t waiting() const;
+  /// Breaks the solids that `impacts` of blasts and speculative contacts can break. Contacts are
+  /// found anew after every round of breaks.
+  void run(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
+  /// Number of deferred blast impacts and clusters.
+  std::uint32_t deferred() const;
 
  private:
-  void ask(World& world, std::vector<Trial>& trials);
-  /// Energy that an impact must have to be looked at: none while the frame's budget lasts.
-  double least_worth_J(const World& world) const;
-  /// Makes impacts ready to be planned, and spends what they cost; false if that is too much.
-  bool take_on(World& world, const Breaker& breaker, std::span<PlannedBreak> all);
-  /// Shares what is left of the frame among plans by stress: those that may go on in the next
-  /// frame.
-  void share_out(std::span<PlannedBreak* const> resumable) const;
-  /// Stops the bodies of a trial until the next step, in which it is found anew.
-  void wait(World& world, Trial& trial);
-  /// Impacts that come with an energy of their own; true if something broke.
-  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const Impact> impacts);
-  /// Follows all probes until each has broken something or come to the end of the step, or has to
-  /// wait (if it is not `in_time`, or too costly); true if another round is due. What another trial
-  /// has broken meanwhile is hit again in that round, as what became of it.
-  bool decide(World& world, const Breaker& breaker, std::vector<Trial> trials, bool in_time);
+  /// Advances the probes without known loads to their next loads; removes trials without any.
+  void run_probes(World& world, std::vector<Trial>& trials);
+  /// Least energy of an impact that is probed: 0 while the frame's budget lasts.
+  double min_impact_energy_J(const World& world) const;
+  /// Prepares impacts for planning and spends their cost; false if the budget does not suffice.
+  bool prepare_within_budget(World& world, const Breaker& breaker, std::span<PlannedBreak> all);
+  /// Shares the rest of the budget among the plans by stress that may be resumed in the next frame.
+  void share_budget(std::span<PlannedBreak* const> resumable) const;
+  /// Pauses the bodies of a trial until the next step, in which a new probe is made of them.
+  void defer(World& world, Trial& trial);
+  /// Breaks solids by the impacts of blasts; returns true if something broke.
+  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
+  /// Advances each probe until it breaks something, reaches the end of the step, or is deferred (if
+  /// no `rounds_left`, or over the budget). Returns true if another round is due, in which solids
+  /// that another trial has broken meanwhile are probed as their pieces.
+  bool resolve(World& world, const Breaker& breaker, std::vector<Trial> trials, bool rounds_left);
 
   BreakBudget budget_;
-  std::set<std::uint64_t> held_;         ///< Fingerprints of probes of this step in which all held.
-  std::vector<Impact> impacts_waiting_;  ///< Over the frame's budget: decided first in the next.
-  WaitingRoom waiting_room_;
+  /// Fingerprints of this step's probes without a break.
+  std::set<std::uint64_t> unbroken_probes_;
+  std::vector<ActorImpact>
+      deferred_blast_impacts_;  ///< Over the frame's budget: first in the next.
+  DeferredImpacts deferred_impacts_;
 };
 
 }  // namespace sunder

@@ -16,27 +16,30 @@ namespace sunder {
 namespace {
 
 constexpr std::uint32_t kOutside = 0xffffffff;
-constexpr std::size_t kManyPlaces = 4;  // pairs of convexes by which two bodies touch
+// Number of touching pairs of convexes of two bodies from which on each pair counts as one contact.
+constexpr std::size_t kMinMergedPairs = 4;
 
-/// A cluster on its way to a probe.
-class Described {
+/// Collects the bodies, contacts and joints of a cluster.
+class ProbeBuilder {
  public:
-  Described(const World& world, const JointGraph& joints, const Cluster& cluster)
+  ProbeBuilder(const World& world, const JointGraph& joints, const Cluster& cluster)
       : world_(world), states_(world.physics->states()), joints_(joints), cluster_(cluster) {
     bodies_.reserve(cluster.size());
     for (const Actor* actor : cluster) {
       keys_.push_back(actor ? actor->key : kGroundKey);
-      bodies_.push_back(describe(actor));
+      bodies_.push_back(make_body(actor));
     }
   }
 
-  BreakProbe probe() {
+  std::unique_ptr<ImpactProbe> probe() {
     const double horizon_s = world_.clock.horizon_s();
-    const double still_m_s = FroudeScale(world_.scene.gravity_W).still_m_s(world_.clock.dt_s);
-    add_touches(still_m_s * horizon_s);
-    for (const std::uint32_t joint : joints_of_cluster()) link(world_.joints.live()[joint]);
-    return BreakProbe(std::move(bodies_), std::move(contacts_), horizon_s, still_m_s,
-                      world_.scene.gravity_W, std::move(links_));
+    const double rest_speed_m_s =
+        FroudeScale(world_.scene.gravity_W).rest_speed_m_s(world_.clock.dt_s);
+    add_contacts(rest_speed_m_s * horizon_s);
+    for (const std::uint32_t joint : joints_of_cluster()) add_joint(world_.joints.live()[joint]);
+    return world_.physics->probe({std::move(bodies_), std::move(contacts_),
+                                  std::move(probe_joints_), horizon_s, rest_speed_m_s,
+                                  world_.scene.gravity_W});
   }
 
  private:
@@ -45,10 +48,10 @@ class Described {
     return it != keys_.end() && *it == key ? static_cast<std::uint32_t>(it - keys_.begin())
                                            : kOutside;
   }
-  /// The one of two that is not outside.
+  /// Returns the one of two bodies that is in the cluster.
   ProbeBody& inside(std::uint32_t a, std::uint32_t b) { return bodies_[a == kOutside ? b : a]; }
 
-  ProbeBody describe(const Actor* actor) const {
+  ProbeBody make_body(const Actor* actor) const {
     ProbeBody body;
     body.key = actor ? actor->key : kGroundKey;
     if (!actor) return body;
@@ -67,8 +70,9 @@ class Described {
     return body;
   }
 
-  /// What touches something outside, no farther than `touching_m`, leans on that.
-  void add_touches(double touching_m) {
+  /// Adds the contacts within the cluster. A body with a contact to the outside, of a separation of
+  /// at most `touching_m`, counts as supported.
+  void add_contacts(double touching_m) {
     std::vector<BodyId> moving;
     for (const Actor* actor : cluster_) {
       if (actor && !actor->is_static) moving.push_back(actor->body);
@@ -78,7 +82,7 @@ class Described {
     for (const Touch& touch : touches) {
       const std::uint32_t a = index_of(touch.body_tag_a), b = index_of(touch.body_tag_b);
       if (a == kOutside || b == kOutside) {
-        inside(a, b).leans |= touch.separation_m <= touching_m;
+        inside(a, b).is_supported |= touch.separation_m <= touching_m;
         continue;
       }
       contacts_.push_back({a, b, touch.shape_tag_a, touch.shape_tag_b, touch.arm_a_W, touch.arm_b_W,
@@ -87,27 +91,28 @@ class Described {
     merge_patches();
   }
 
-  /// Where two bodies touch in many places, each place counts as one point, its middle: theirs are
-  /// enough to say how the two bear on each other.
+  /// Replaces the contacts of each pair of convexes by their mean if two bodies touch by many such
+  /// pairs.
   void merge_patches() {
     std::vector<ProbeContact> merged;
     merged.reserve(contacts_.size());
     const auto bodies = [](const ProbeContact& c) { return std::pair(c.a, c.b); };
-    const auto place = [](const ProbeContact& c) {
+    const auto shape_pair = [](const ProbeContact& c) {
       return std::tuple(c.a, c.b, c.shape_a, c.shape_b);
     };
     std::ranges::stable_sort(contacts_, {}, bodies);
     for (std::size_t i = 0, end = 0; i < contacts_.size(); i = end) {
-      std::size_t places = 0;
+      std::size_t pairs = 0;
       for (end = i; end < contacts_.size() && bodies(contacts_[end]) == bodies(contacts_[i]); ++end)
-        places += end == i || place(contacts_[end]) != place(contacts_[end - 1]);
-      if (places < kManyPlaces) {
+        pairs += end == i || shape_pair(contacts_[end]) != shape_pair(contacts_[end - 1]);
+      if (pairs < kMinMergedPairs) {
         merged.insert(merged.end(), &contacts_[i], &contacts_[i] + (end - i));
         continue;
       }
       for (std::size_t k = i, next = i; k < end; k = next) {
         ProbeContact middle = contacts_[k];
-        for (next = k + 1; next < end && place(contacts_[next]) == place(middle); ++next) {
+        for (next = k + 1; next < end && shape_pair(contacts_[next]) == shape_pair(middle);
+             ++next) {
           middle.arm_a_W += contacts_[next].arm_a_W;
           middle.arm_b_W += contacts_[next].arm_b_W;
           middle.separation_m += contacts_[next].separation_m;
@@ -120,40 +125,40 @@ class Described {
     contacts_ = std::move(merged);
   }
 
-  /// By place in Joints::live(), ascending.
+  /// Returns the indices in Joints::live() of the cluster's joints, ascending.
   std::vector<std::uint32_t> joints_of_cluster() const {
     std::vector<std::uint32_t> all;
     for (const Actor* actor : cluster_) {
       if (!actor || actor->is_static) continue;
-      for (const JointGraph::End& end : joints_.of(actor->key)) all.push_back(end.joint);
+      for (const JointGraph::End& end : joints_.ends_at(actor->key)) all.push_back(end.joint);
     }
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 
-  /// Where a joint holds a body; anchors in W at the world's end.
+  /// Returns the anchor of a joint at an actor (null: the world).
   Vec3 anchor_W(const Joints::End& end, const Actor* actor) const {
     return actor ? rest_pose(*actor, states_[actor->body].X_WB) * end.anchor_R : end.anchor_R;
   }
 
-  /// Adds a joint as what it is to a probe; or, if it leads out of the cluster, leans on that. A
-  /// hinge of this very step is none: what made it has it flow before it bears anything.
-  void link(const Joints::Live& joint) {
+  /// Adds a joint, or marks its body as supported if the other end is outside the cluster. Skips a
+  /// plastic hinge made in this step, which yields before it transmits a load.
+  void add_joint(const Joints::Live& joint) {
     if (joint.hinge && joint.hinge->flowed_step == world_.clock.step) return;
     const std::uint32_t a = index_of(joint.a.key), b = index_of(joint.b.key);
     if (a == kOutside || b == kOutside) {
-      inside(a, b).leans = true;
+      inside(a, b).is_supported = true;
       return;
     }
     const Vec3 at_a_W = anchor_W(joint.a, cluster_[a]), at_b_W = anchor_W(joint.b, cluster_[b]);
-    ProbeJoint link{joint.desc.kind, a, b};
-    link.arm_a_W = at_a_W - bodies_[a].position_W;
-    link.arm_b_W = at_b_W - bodies_[b].position_W;
+    ProbeJoint probe_joint{joint.desc.kind, a, b};
+    probe_joint.arm_a_W = at_a_W - bodies_[a].position_W;
+    probe_joint.arm_b_W = at_b_W - bodies_[b].position_W;
     if (joint.desc.kind == JointKind::kRope) {
       const double length_m = (at_a_W - at_b_W).norm();
       ProbeContact rope{a, b};
-      rope.arm_a_W = link.arm_a_W, rope.arm_b_W = link.arm_b_W;
+      rope.arm_a_W = probe_joint.arm_a_W, rope.arm_b_W = probe_joint.arm_b_W;
       if (length_m > 0) rope.normal_W = (at_a_W - at_b_W) / length_m;
       rope.separation_m = joint.desc.length_m - length_m;
       rope.rope = true;
@@ -161,9 +166,9 @@ class Described {
       return;
     }
     const Actor* actor = cluster_[a];
-    link.axis_W = actor ? Vec3(states_[actor->body].X_WB.rotation * joint.desc.axis_a_R)
-                        : joint.desc.axis_a_R;
-    links_.push_back(link);
+    probe_joint.axis_W = actor ? Vec3(states_[actor->body].X_WB.rotation * joint.desc.axis_a_R)
+                               : joint.desc.axis_a_R;
+    probe_joints_.push_back(probe_joint);
   }
 
   const World& world_;
@@ -173,7 +178,7 @@ class Described {
   std::vector<std::uint32_t> keys_;
   std::vector<ProbeBody> bodies_;
   std::vector<ProbeContact> contacts_;
-  std::vector<ProbeJoint> links_;
+  std::vector<ProbeJoint> probe_joints_;
 };
 
 }  // namespace
@@ -184,11 +189,12 @@ bool may_break(const World& world, const Actor* actor, double energy_J, double i
   return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 
-BreakProbe make_probe(const World& world, const JointGraph& joints, const Cluster& cluster) {
-  return Described(world, joints, cluster).probe();
+std::unique_ptr<ImpactProbe> make_probe(const World& world, const JointGraph& joints,
+                                        const Cluster& cluster) {
+  return ProbeBuilder(world, joints, cluster).probe();
 }
 
-std::uint64_t fingerprint(const BreakProbe& probe) {
+std::uint64_t fingerprint(const ImpactProbe& probe) {
   std::uint64_t print = probe.bodies().size();
   const auto add = [&](std::uint64_t bits) { print = combine(print, bits); };
   const auto add_pair = [&](std::uint64_t a, std::uint64_t b) { add(a << 32 | b); };

@@ -1,17 +1,17 @@
-// What a cluster of bodies is to a break probe. Internal to engine/world.
+// Construction of an impact probe for a cluster of actors. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 #include "engine/world/break/joint_graph.h"
 
 namespace sunder {
 
-/// Actors that touch or are joined, ascending by key; the ground, if it is among them, is a null
-/// behind them all.
+/// Actors connected by contacts or joints, ascending by key; a null at the end is the ground.
 using Cluster = std::vector<const Actor*>;
 
 /// Returns true if an impact of this energy, impulse and speed may break an actor. Pieces that came
@@ -19,12 +19,14 @@ using Cluster = std::vector<const Actor*>;
 bool may_break(const World& world, const Actor* actor, double energy_J, double impulse_Ns,
                double speed_m_s);
 
-/// The bodies of a cluster in the order of its actors, the contacts among them and their joints.
-/// Any number of threads may ask once one has asked for touches since contacts were found.
-BreakProbe make_probe(const World& world, const JointGraph& joints, const Cluster& cluster);
+/// Returns the probe of a cluster: its bodies in the order of the actors, the contacts among them
+/// and their joints. May run in parallel once a thread has called Physics::touches() since contacts
+/// were found.
+std::unique_ptr<ImpactProbe> make_probe(const World& world, const JointGraph& joints,
+                                        const Cluster& cluster);
 
-/// Of what a probe begins with: the same again if and only if the same bodies meet in the same way.
-/// What it takes to break them is left out.
-std::uint64_t fingerprint(const BreakProbe& probe);
+/// Returns a hash of a probe's initial state: bodies, contacts and joints, without the limits at
+/// which bodies break.
+std::uint64_t fingerprint(const ImpactProbe& probe);
 
 }  // namespace sunder

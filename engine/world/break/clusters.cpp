@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -15,16 +14,17 @@
 namespace sunder {
 namespace {
 
-// Of a cluster, those nearest to the approach; fewer where what approaches cannot break itself, and
-// an impact can only be passed on.
+// Most moving bodies in a cluster, the nearest to the seed first; fewer if neither body of the seed
+// can break, so that the impact can only be passed on.
 constexpr std::size_t kMostBodies = 32, kMostPassingOn = 12;
-constexpr double kMore = 2;  // impulse and speed of an approach, at most, once others have met
+// Bound on the growth of a contact's impulse and speed after other contacts were solved.
+constexpr double kMaxGain = 2;
 
-/// The approaches between two bodies as one.
+/// All speculative contacts between two bodies, from which a cluster grows.
 struct Seed {
   std::uint32_t a = 0, b = 0;
   double energy_J = 0, impulse_Ns = 0, speed_m_s = 0;
-  std::uint64_t since_step = 0;  ///< It waits since then.
+  std::uint64_t since_step = 0;  ///< First step that deferred one of the bodies.
 
   void add(double closing_J, double closing_m_s) {
     energy_J += closing_J;
@@ -33,22 +33,23 @@ struct Seed {
   }
 };
 
-/// Returns true if the impact that a seed passes on may break an actor.
+/// Returns true if the impact of a seed, direct or passed on, may break an actor.
 bool may_break(const World& world, const Actor* actor, const Seed& seed) {
-  return may_break(world, actor, seed.energy_J, kMore * seed.impulse_Ns, kMore * seed.speed_m_s);
+  return may_break(world, actor, seed.energy_J, kMaxGain * seed.impulse_Ns,
+                   kMaxGain * seed.speed_m_s);
 }
 
-/// Approaches with energy enough to break something in the world, in the order of find_clusters().
-std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
-                             const JointGraph& joints, double least_J) {
+/// Returns the seeds with energy enough to break an actor, in the order of find_clusters().
+std::vector<Seed> find_seeds(const World& world, const DeferredImpacts& deferred,
+                             const JointGraph& joints, double min_energy_J) {
   double least_of_all_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) {
     least_of_all_J = std::min(least_of_all_J, actor.least_of_all_J());
   }
   if (least_of_all_J == std::numeric_limits<double>::infinity()) return {};
-  least_J = std::max(least_J, least_of_all_J);
+  min_energy_J = std::max(min_energy_J, least_of_all_J);
   std::vector<Seed> pairs;
-  for (const Approach& approach : world.physics->approaches()) {
+  for (const SpeculativeContact& approach : world.physics->speculative_contacts()) {
     Seed& pair = pairs.emplace_back(Seed{approach.body_tag_a, approach.body_tag_b});
     pair.add(joints.closing_energy_J(approach), joints.closing_speed_m_s(approach));
   }
@@ -58,9 +59,9 @@ std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
     Seed seed = pairs[i];
     for (end = i + 1; end < pairs.size() && pairs[end].a == seed.a && pairs[end].b == seed.b; ++end)
       seed.add(pairs[end].energy_J, pairs[end].speed_m_s);
-    if (seed.energy_J <= least_J) continue;
-    seed.since_step = std::min(waiting.since_step(seed.a, world.clock.step),
-                               waiting.since_step(seed.b, world.clock.step));
+    if (seed.energy_J <= min_energy_J) continue;
+    seed.since_step = std::min(deferred.since_step(seed.a, world.clock.step),
+                               deferred.since_step(seed.b, world.clock.step));
     seeds.push_back(seed);
   }
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& x, const Seed& y) {
@@ -69,11 +70,11 @@ std::vector<Seed> find_seeds(const World& world, const WaitingRoom& waiting,
   return seeds;
 }
 
-/// Which actors are in clusters. Actors are known by their place in the world; the ground comes
-/// behind them all.
-class Members {
+/// Membership of actors in clusters. Actors are given by their index in World::actors; the ground
+/// has the index after the last.
+class ClusterMembership {
  public:
-  explicit Members(const World& world)
+  explicit ClusterMembership(const World& world)
       : world_(world),
         place_of_key_(world.actors.next_key(), ground()),
         all_(world.actors.size() + 1) {
@@ -85,23 +86,23 @@ class Members {
   std::uint32_t place(std::uint32_t key) const {
     return key < place_of_key_.size() ? place_of_key_[key] : ground();
   }
-  /// Null for the ground.
+  /// Returns the actor at an index; null for the ground.
   const Actor* actor(std::uint32_t place) const {
     return place < ground() ? &world_.actors[place] : nullptr;
   }
   void begin_cluster() { ++clusters_; }
-  /// False if it was in this cluster already.
+  /// Adds an actor to the current cluster; returns false if it was in the cluster already.
   bool add(std::uint32_t place) {
     return std::exchange(all_[place].cluster, clusters_) != clusters_;
   }
-  /// Moving bodies are in one cluster at most.
-  void take(std::uint32_t place) { all_[place].taken = true; }
-  bool taken(std::uint32_t place) const { return all_[place].taken; }
+  /// Marks a moving body as used, so that it is in one cluster at most.
+  void claim(std::uint32_t place) { all_[place].is_claimed = true; }
+  bool is_claimed(std::uint32_t place) const { return all_[place].is_claimed; }
 
  private:
   struct Member {
-    std::uint32_t cluster = 0;  ///< The last that saw it.
-    bool taken = false;
+    std::uint32_t cluster = 0;  ///< Last cluster that the actor was added to.
+    bool is_claimed = false;
   };
 
   std::uint32_t ground() const { return static_cast<std::uint32_t>(world_.actors.size()); }
@@ -109,24 +110,24 @@ class Members {
   const World& world_;
   std::vector<std::uint32_t> place_of_key_;
   std::vector<Member> all_;
-  std::uint32_t clusters_ = 0;  ///< The number of the last.
+  std::uint32_t clusters_ = 0;  ///< Number of clusters so far.
 };
 
-/// Bodies reached from a seed, contact by contact and joint by joint.
-class Reach {
+/// Breadth-first search of the cluster of a seed along contacts and joints.
+class ClusterSearch {
  public:
-  Reach(const World& world, const JointGraph& joints, Members& members)
+  ClusterSearch(const World& world, const JointGraph& joints, ClusterMembership& members)
       : world_(world), joints_(joints), members_(members) {
     members_.begin_cluster();
   }
 
-  /// False if one of the seed's bodies is in a cluster already.
+  /// Begins with a seed; returns false if a moving body of the seed is in a cluster already.
   bool start(const Seed& seed) {
     const std::uint32_t ends[] = {members_.place(seed.a), members_.place(seed.b)};
     bool direct = false;
     for (const std::uint32_t place : ends) {
       const Actor* actor = members_.actor(place);
-      if (actor && !actor->is_static && members_.taken(place)) return false;
+      if (actor && !actor->is_static && members_.is_claimed(place)) return false;
       direct |= may_break(world_, actor, seed);
     }
     most_ = direct ? kMostBodies : kMostPassingOn;
@@ -141,7 +142,7 @@ class Reach {
       for (const std::size_t end = moving_.size(); done < end; ++done) {
         const Actor& actor = *members_.actor(moving_[done]);
         layer.push_back(actor.body);
-        for (const JointGraph::End& at : joints_.of(actor.key)) {
+        for (const JointGraph::End& at : joints_.ends_at(actor.key)) {
           const Joints::Live& joint = world_.joints.live()[at.joint];
           add(members_.place(joint.a.key));
           add(members_.place(joint.b.key));
@@ -171,48 +172,47 @@ class Reach {
   void add(std::uint32_t place) {
     const Actor* actor = members_.actor(place);
     const bool moves = actor && !actor->is_static;
-    if (moves && (moving_.size() >= most_ || members_.taken(place))) return;
+    if (moves && (moving_.size() >= most_ || members_.is_claimed(place))) return;
     if (!members_.add(place)) return;
     places_.push_back(place);
     if (!moves) return;
     moving_.push_back(place);
-    members_.take(place);
+    members_.claim(place);
   }
 
   const World& world_;
   const JointGraph& joints_;
-  Members& members_;
-  std::vector<std::uint32_t> places_;  ///< Of this cluster's bodies, fixed ones too.
-  std::vector<std::uint32_t> moving_;  ///< Nearest first.
+  ClusterMembership& members_;
+  std::vector<std::uint32_t> places_;  ///< All bodies of the cluster, static ones included.
+  std::vector<std::uint32_t> moving_;  ///< Moving bodies of the cluster, nearest first.
   std::size_t most_ = kMostBodies;
 };
 
 }  // namespace
 
-std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting,
-                                      double least_J) {
+std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
+                                                        const DeferredImpacts& deferred,
+                                                        double min_energy_J) {
   const JointGraph joints(world);
-  const std::vector<Seed> seeds = find_seeds(world, waiting, joints, least_J);
+  const std::vector<Seed> seeds = find_seeds(world, deferred, joints, min_energy_J);
   if (seeds.empty()) return {};
   std::vector<Cluster> clusters;
-  Members members(world);
-  waiting.for_each([&](const Waiter& waiter) { members.take(members.place(waiter.key)); });
+  ClusterMembership members(world);
+  deferred.for_each([&](const DeferredBody& body) { members.claim(members.place(body.key)); });
   for (const Seed& seed : seeds) {
-    Reach reach(world, joints, members);
-    if (!reach.start(seed)) continue;
-    reach.grow();
-    if (reach.could_break(seed)) clusters.push_back(reach.cluster());
+    ClusterSearch search(world, joints, members);
+    if (!search.start(seed)) continue;
+    search.grow();
+    if (search.could_break(seed)) clusters.push_back(search.cluster());
   }
-  std::vector<std::optional<BreakProbe>> made(clusters.size());
-  for_chunks(made.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t i = begin; i < end; ++i) made[i] = make_probe(world, joints, clusters[i]);
+  std::vector<std::unique_ptr<ImpactProbe>> probes(clusters.size());
+  for_chunks(probes.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) probes[i] = make_probe(world, joints, clusters[i]);
   });
-  std::vector<BreakProbe> probes;
-  for (std::optional<BreakProbe>& probe : made) probes.push_back(std::move(*probe));
   return probes;
 }
 
-double take_over(World& world, const BreakProbe& probe) {
+double apply_motion(World& world, const ImpactProbe& probe) {
   double gain_J = 0;
   for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
     const ProbeMotion& motion = probe.motions()[b];

@@ -1,23 +1,25 @@
-// Which bodies a break probe looks at: those connected by contacts to an approach that could reach
-// something breakable. Internal to engine/world.
+// Clusters of bodies for break probes: those connected by contacts or joints to a speculative
+// contact that could break something. Internal to engine/world.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
-#include "engine/world/break/waiting_room.h"
+#include "engine/world/break/deferred_impacts.h"
 
 namespace sunder {
 
-/// Clusters, without the bodies in the waiting room, around the approaches of the last collide(); a
-/// body that can move is in one at most. What has waited the longest comes first, then the hardest
-/// approach; approaches with no more than `least_J` are left out.
-std::vector<BreakProbe> find_clusters(const World& world, const WaitingRoom& waiting,
-                                      double least_J);
+/// Returns probes of the clusters around the speculative contacts of the last collide() with more
+/// than `min_energy_J`, without deferred bodies. A body that can move is in one cluster at most.
+/// The longest deferred cluster comes first, then that of the contact with the most energy.
+std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
+                                                        const DeferredImpacts& deferred,
+                                                        double min_energy_J);
 
-/// Moves the bodies of a cluster on as its probe found, once that has ended. The answer is by how
-/// much their kinetic energy has grown, J.
-double take_over(World& world, const BreakProbe& probe);
+/// Applies the motions that an ended probe has found to the bodies of its cluster. Returns the
+/// change of their kinetic energy, J.
+double apply_motion(World& world, const ImpactProbe& probe);
 
 }  // namespace sunder

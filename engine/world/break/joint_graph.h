@@ -1,4 +1,5 @@
-// Which actors joints hold together, for the reach of break probes. Internal to engine/world.
+// Actors connected by joints, and bounds on the energy of their impacts, for break probes. Internal
+// to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -11,44 +12,46 @@
 
 namespace sunder {
 
-/// Good until a joint or an actor comes or goes.
+/// Valid until a joint or an actor is added or removed.
 class JointGraph {
  public:
-  /// Where a joint holds an actor.
+  /// End of a joint at an actor.
   struct End {
     std::uint32_t key = 0;
-    std::uint32_t joint = 0;  ///< By place in Joints::live().
+    std::uint32_t joint = 0;  ///< Index in Joints::live().
   };
 
   explicit JointGraph(const World& world);
 
-  /// The joints that hold an actor.
-  std::span<const End> of(std::uint32_t key) const;
-  /// What closes at a contact, by the time that it does, at most. What is joined hits with no more
-  /// than the energy of all that hangs together; nor, if nothing holds that, with more than its
-  /// mass (Thomson's theorem: of all motions that the joints allow, the true one has the least).
-  double closing_energy_J(const Approach& approach) const;
-  /// The speed of that.
-  double closing_speed_m_s(const Approach& approach) const;
+  /// Returns the joint ends at an actor.
+  std::span<const End> ends_at(std::uint32_t key) const;
+  /// Upper bound of the energy of a speculative contact at the time of its closing. Jointed bodies
+  /// strike with at most the kinetic energy of their assembly, and, if the assembly is free, with
+  /// at most its mass (Thomson's theorem: of all motions that the joints allow, the true one has
+  /// the least energy).
+  double closing_energy_J(const SpeculativeContact& approach) const;
+  /// Closing speed of a speculative contact at the time of its closing, a fall to the contact
+  /// included.
+  double closing_speed_m_s(const SpeculativeContact& approach) const;
 
  private:
-  /// Energy that a fall to the contact adds, for each kilogram.
-  double falls_J_kg(const Approach& approach) const;
+  /// Energy per kilogram that a fall over the contact's separation adds.
+  double fall_energy_J_kg(const SpeculativeContact& approach) const;
 
-  /// All that hangs together, at one.
-  struct Whole {
+  /// Bodies connected by joints.
+  struct Assembly {
     double mass_kg = 0, kinetic_J = 0;
-    bool held = false;  ///< By the world.
+    bool held = false;  ///< Jointed to the world or to a static or kinematic body.
   };
 
-  Whole alone(std::uint32_t key) const;
-  Whole whole(std::uint32_t key) const;
+  Assembly single_body(std::uint32_t key) const;
+  Assembly assembly(std::uint32_t key) const;
 
   const World& world_;
   const BodyStates states_;
-  std::vector<End> ends_;                ///< By key.
-  std::vector<std::uint32_t> whole_of_;  ///< Per joint.
-  std::vector<Whole> wholes_;            ///< By the first joint of each.
+  std::vector<End> ends_;                   ///< In order of key, then joint.
+  std::vector<std::uint32_t> assembly_of_;  ///< Per joint: index in assemblies_.
+  std::vector<Assembly> assemblies_;        ///< At the index of the first joint of each.
 };
 
 }  // namespace sunder

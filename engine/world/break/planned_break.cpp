@@ -8,7 +8,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
-#include "engine/world/actors/bearing.h"
+#include "engine/world/actors/load_case.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/break/striker.h"
@@ -16,31 +16,33 @@
 namespace sunder {
 namespace {
 
-// An impact with less than this part of what the last fruitless plan asked for is not planned.
-constexpr double kWorthPlanning = 0.7;
-// One with less than this part of what would have bent it to its limit when it was last struck, at
-// another place perhaps, is not asked about.
-constexpr double kWorthAsking = 0.1;
-// One with less than this part of the impulse that would have is not asked about, either.
-constexpr double kWorthPushing = 0.3;
-// In visits of each bond: what is not known by then is not asked about again until it is harder.
-// Where no pattern is, stress alone can answer, and slender frames take it long.
-constexpr std::uint64_t kMostBlowWork = 100, kMostWorkOfFrames = 1200;
-// And in all: what 8,000 convexes take (docs/decisions/012). More of them come to no answer within
-// a frame.
-constexpr std::uint64_t kMostVisits = 500000;
-// Share of the surroundings of a plug that has to be there.
-constexpr double kConfined = 0.45;
-// Widths of a striker's section; what is thicker is not driven through.
-constexpr double kFarthest = 8;
-// Highest stress of a struck solid over that of a bar in its first mode at the same mean speed, at
-// most: for impacts off the middle, other shapes, and the steady load.
-constexpr double kBendsMore = 4;
-constexpr double kGroundPa_s_m = 8.5e6;  // impedance of the ground: that of concrete
-// What cracks at its bonds takes this much of a blow at most: it is stress that decides.
-constexpr double kMostTaken = 0.9;
+// An impact with less than this share of the energy that the last plan without a break needed is
+// not planned.
+constexpr double kReplanEnergyShare = 0.7;
+// An impact with less than this share of the energy that would have bent the solid to its limit at
+// the last impact, perhaps at another point, is not planned by stress.
+constexpr double kRetryEnergyShare = 0.1;
+// An impact with less than this share of the impulse that would have is not planned by stress.
+constexpr double kRetryImpulseShare = 0.3;
+// Most evaluations of each bond in a plan by stress; an impact that is undecided after them is
+// planned again only with more energy. Materials without a pattern can only break by stress, and
+// slender frames need more evaluations.
+constexpr std::uint64_t kMaxImpactEvaluations = 100, kMaxFrameEvaluations = 1200;
+// Most bond evaluations of a plan, enough for 8,000 convexes (docs/decisions/012); larger solids
+// cannot be decided within a frame.
+constexpr std::uint64_t kMaxEvaluations = 500000;
+// Least share of material around a section for a plug (confinement()).
+constexpr double kMinConfinement = 0.45;
+// Greatest thickness that a striker perforates, in widths of its section.
+constexpr double kMaxThicknessWidths = 8;
+// Bound on the highest stress of a struck solid, relative to a bar in its first mode at the same
+// mean speed: covers eccentric impacts, other shapes and the steady load.
+constexpr double kStressBoundFactor = 4;
+constexpr double kGroundPa_s_m = 8.5e6;  // impedance of the ground: concrete
+// Largest share of an impact's energy that a break by stress takes, whatever its cracks need.
+constexpr double kMaxStressBreakShare = 0.9;
 
-/// Energy that the new crack surface takes; each crack has two sides.
+/// Returns the fracture energy of the new crack surface; each crack has two sides.
 double crack_energy_J(const World& world, const BreakEdit& edit) {
   double energy = 0;
   for (const ExposedFace& face : edit.loose.exposed) {
@@ -55,12 +57,12 @@ double crack_energy_J(const World& world, const Structure& structure, std::span<
   };
   double energy = 0;
   for (const Bond& bond : cut)
-    energy += bond.area_m2 * crack_J_m2(material(bond.a), material(bond.b));
+    energy += bond.area_m2 * crack_energy_J_m2(material(bond.a), material(bond.b));
   return energy;
 }
 
-/// Whether stress breaks it, or bends it.
-bool gives_way(const BreakEdit& by_stress) {
+/// Returns true if a plan by stress breaks bonds or makes hinges.
+bool breaks_or_bends(const BreakEdit& by_stress) {
   return !by_stress.cut.empty() || !by_stress.hinges.empty();
 }
 
@@ -71,8 +73,8 @@ double area_m2(const PlannedBreak& planned) {
   return area;
 }
 
-/// True if the break where the solid is struck comes before anything far from there: it can be
-/// paid for, and the impact is too fast for waves.
+/// Returns true if the solid breaks at the point of impact before load reaches the rest of it: the
+/// energy suffices, and the impact is too fast for waves to carry the load away.
 bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
   if (!planned.by_pattern || !planned.edit.changed || planned.needed_J >= planned.impact.energy_J)
     return false;
@@ -81,10 +83,10 @@ bool breaks_locally(const World& world, const Structure& structure, const Planne
          breaks_before_waves_arrive(world.material(convex.material), planned.speed_m_s);
 }
 
-/// Reduces the load of a fast and narrow striker on the rest of the solid to the impulse that gets
-/// through before the solid is sheared around it: J = τ A e / c, the shear strength τ on the sides
-/// A of the plug until the shear wave has passed the thickness e. Returns false if that impulse
-/// cannot overload anything.
+/// Reduces the load of a fast and narrow striker on the rest of the solid to the impulse that is
+/// transmitted before the solid is sheared around the striker: J = τ A e / c, the shear strength τ
+/// on the sides A of the plug until the shear wave has passed the thickness e. Returns false if
+/// that impulse cannot overload a bond.
 bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak& planned) {
   if (!planned.command.plug) return true;
   const Plug& plug = *planned.command.plug;
@@ -96,23 +98,23 @@ bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak&
   // The first mode of a bar of rectangular section that moves at v has the stress √3 ρ c v.
   const double speed_m_s = share * planned.impulse_Ns / actor.weight.mass_kg;
   const double most_Pa =
-      kBendsMore * std::sqrt(3 * material.youngs_Pa * material.density_kg_m3) * speed_m_s;
-  if (most_Pa < material.weakest_Pa()) return false;
-  for (Load& load : planned.impulses) load.force_N *= share, load.torque_Nm *= share;
+      kStressBoundFactor * std::sqrt(3 * material.youngs_Pa * material.density_kg_m3) * speed_m_s;
+  if (most_Pa < material.min_stress_limit_Pa()) return false;
+  for (AppliedForce& load : planned.impulses) load.force_N *= share, load.torque_Nm *= share;
   planned.impulse_Ns *= share;
-  planned.far_J = share * share * planned.impact.energy_J;
+  planned.transmitted_J = share * share * planned.impact.energy_J;
   return true;
 }
 
-/// Of both ways to break the one that would come first if the blow grew from nothing: at this
-/// share of its energy the pattern can be paid for, by what stays where the blow lands; at that
-/// some bond is overloaded. What is overloaded where the pattern reaches is the pattern's.
-void choose(const World& world, const Structure& structure, PlannedBreak& planned) {
+/// Chooses the mode of break that would come first if the impact grew from zero: by pattern at the
+/// share of the energy at which its local part suffices for the cracks, or by stress at the share
+/// at which a bond is overloaded. Overload within the reach of the pattern counts for the pattern.
+void choose_break_mode(const World& world, const Structure& structure, PlannedBreak& planned) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const BlowStress& blow = planned.stressed.blow;
+  const ImpulsiveStress& blow = planned.stressed.blow;
   const double overloads = 1 / (blow.worst * blow.worst), energy_J = planned.impact.energy_J;
   double by_pattern = kNever;
-  double by_stress = gives_way(planned.stressed.edit) ? overloads : kNever;
+  double by_stress = breaks_or_bends(planned.stressed.edit) ? overloads : kNever;
   if (planned.edit.changed) {
     by_pattern = planned.needed_J / (blow.local * energy_J);
     const double distance_m = (blow.worst_R - planned.command.X_RP.position).norm();
@@ -123,13 +125,13 @@ void choose(const World& world, const Structure& structure, PlannedBreak& planne
   if (!planned.breaks || !planned.at_bonds) return;
   planned.edit = std::move(planned.stressed.edit);
   planned.needed_J = crack_energy_J(world, structure, planned.edit.cut);
-  if (std::isfinite(planned.far_J))
-    planned.needed_J = std::min(planned.needed_J, kMostTaken * energy_J);
+  if (std::isfinite(planned.transmitted_J))
+    planned.needed_J = std::min(planned.needed_J, kMaxStressBreakShare * energy_J);
   planned.crushing_J = 0;
 }
 
-/// Distance from the point struck to the farthest corner of the section.
-double reach_of(const Hit& hit) {
+/// Returns the distance from the point of impact to the farthest corner of the section.
+double reach_of(const StructureImpact& hit) {
   double reach_m = 0;
   for (const Vec3& corner : hit.section_R)
     reach_m = std::max(reach_m, (corner - hit.point_R).norm());
@@ -138,9 +140,9 @@ double reach_of(const Hit& hit) {
 
 /// Adds the striker's section, mass and speed to a hit, and the thickness of the actor behind it.
 void add_striker(const World& world, const PlannedBreak& planned, const Actor& actor,
-                 const Pose& X_WB, Hit& hit) {
+                 const Pose& X_WB, StructureImpact& hit) {
   const Actor* striker = world.actors.find(planned.striker);
-  const Impact& impact = planned.impact;
+  const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   if (!striker || !breaks_before_waves_arrive(material, planned.speed_m_s)) return;
   const std::vector<Vec3> section_W =
@@ -155,18 +157,19 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   hit.speed_m_s = planned.speed_m_s;
   hit.striker_kg = planned.striker_kg();
   hit.held = actor.is_static;
-  const double most_m = kFarthest * reach_of(hit);
+  const double most_m = kMaxThicknessWidths * reach_of(hit);
   hit.thickness_m =
       thickness_behind(actor.structure, hit.section_R, hit.point_R, hit.direction_R, most_m);
-  if (!(hit.thickness_m > 0)) {  // the point is the mean of several contacts, about a hole
+  if (!(hit.thickness_m > 0)) {  // the mean of several contacts may lie in a hole
     const Vec3 middle_R = actor.structure.convex(impact.convex)->solid.centroid;
     hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);
   }
   const double depth_m = 0.5 * std::min(hit.thickness_m, reach_of(hit));
-  hit.confined = confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kConfined;
+  hit.confined =
+      confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kMinConfinement;
 }
 
-/// Volume of the convexes that reach into a sphere.
+/// Returns the volume of the convexes that reach into a sphere; of all if the radius is infinite.
 double volume_within(const Structure& structure, const Vec3& center_R, double radius_m) {
   double volume_m3 = 0;
   const auto add = [&](ConvexSlot slot) { volume_m3 += structure.convex(slot)->solid.volume_m3; };
@@ -178,11 +181,12 @@ double volume_within(const Structure& structure, const Vec3& center_R, double ra
   return volume_m3;
 }
 
-/// The impact as the actor's rest frame sees it.
-Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, const Pose& X_WB) {
-  const Impact& impact = planned.impact;
+/// Returns the impact in the actor's rest frame.
+StructureImpact hit_of(const World& world, const PlannedBreak& planned, const Actor& actor,
+                       const Pose& X_WB) {
+  const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
-  Hit hit;
+  StructureImpact hit;
   hit.point_R = X_WB.inverse() * impact.point_W + actor.weight.com_R;
   hit.direction_R = X_WB.rotation.conjugate() * impact.direction_W;
   hit.convex = impact.convex;
@@ -193,14 +197,14 @@ Hit hit_of(const World& world, const PlannedBreak& planned, const Actor& actor, 
   return hit;
 }
 
-/// Volume of a plate that bends where it is struck, out to three thicknesses.
+/// Returns the volume of a plate that bends at an impact, out to three thicknesses.
 double bent_m3(const Convex& convex) {
   const double thickness_m = mean_thickness_m(convex);
   return 28 * thickness_m * thickness_m * thickness_m;
 }
 
-/// Share of an impact's speed at which its wave pushes on in the solid that it strikes: the striker
-/// gives as well, where it has no greater impedance; plates bend instead.
+/// Returns the particle speed behind the impact wave in the struck solid as a share of the impact's
+/// speed: Z₁ / (Z₁ + Z₂), with the impedances of striker and solid; 1 for plates, which bend.
 double share_of_speed(const World& world, const Convex& convex, const Actor* striker) {
   if (is_thin(convex)) return 1;
   const double striker_Pa_s_m = striker && !striker->materials.empty()
@@ -211,7 +215,7 @@ double share_of_speed(const World& world, const Convex& convex, const Actor* str
 
 }  // namespace
 
-bool breaks_where_struck(const World& world, const Actor& actor, const ProbeLoad& load,
+bool breaks_where_struck(const World& world, const Actor& actor, const ImpactLoad& load,
                          const Actor* striker) {
   const Convex& convex = *actor.structure.convex(ConvexSlot(load.shape));
   const Material& material = world.material(convex.material);
@@ -232,17 +236,17 @@ bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
   return speed_m_s * material.density_kg_m3 * material.shear_wave_m_s() > material.shear_Pa;
 }
 
-void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
-             PlannedBreak& planned) {
-  const Impact& impact = planned.impact;
+void prepare_command(const World& world, const Breaker& breaker, std::uint64_t event,
+                     PlannedBreak& planned) {
+  const ActorImpact& impact = planned.impact;
   const Actor& actor = *world.actors.find(impact.key);
-  Hit hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
-  // Of the actor: hit once more, it would break the same way, or an impact that comes in several
-  // steps would be given several chances.
+  StructureImpact hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
+  // The seed depends on the actor alone: a repeated impact breaks it the same way, so that an
+  // impact over several steps gets no several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
-  planned.way = {std::move(hit.section_R), hit.point_R, hit.direction_R, hit.thickness_m};
+  planned.swept = {std::move(hit.section_R), hit.point_R, hit.direction_R, hit.thickness_m};
 }
 
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
@@ -277,63 +281,65 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
       if (planned.by_stress && !reduce_to_transmitted(world, actor, planned))
         planned.by_stress = false;
       if (planned.by_stress) {
-        std::vector<Load> loads;
-        LoadCase load = bearing(world, actor, states[actor.body].X_WB.rotation, loads);
+        std::vector<AppliedForce> loads;
+        LoadCase load = make_load_case(world, actor, states[actor.body].X_WB.rotation, loads);
         const Convex& convex = *actor.structure.convex(planned.impact.convex);
         const bool has_pattern = world.material(convex.material).breakable();
         const std::uint64_t bonds = actor.structure.bond_count() + 1;
-        const std::uint64_t most_work =
-            std::min(kMostVisits, (has_pattern ? kMostBlowWork : kMostWorkOfFrames) * bonds);
-        load.blow = {planned.impulses, planned.far_J, planned.command.X_RP.position,
+        const std::uint64_t most_work = std::min(
+            kMaxEvaluations, (has_pattern ? kMaxImpactEvaluations : kMaxFrameEvaluations) * bonds);
+        load.blow = {planned.impulses, planned.transmitted_J, planned.command.X_RP.position,
                      planned.by_pattern ? planned.command.radius_m : 0, most_work};
-        load.most_work = std::min(most_work, planned.most_visits);
+        load.most_work = std::min(most_work, planned.max_bond_evaluations);
         planned.stressed = breaker.stress(actor.structure, load);
       }
-      choose(world, actor.structure, planned);
+      choose_break_mode(world, actor.structure, planned);
       planned.plan_ms = watch.ms();
     }
   });
 }
 
-Verdict verdict_on(const World& world, const PlannedBreak& planned, std::size_t to_come) {
-  if (!planned.breaks) return Verdict::kHolds;
-  return has_room(world, planned.edit, to_come) ? Verdict::kBreaks : Verdict::kNoRoom;
+Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t pieces_planned) {
+  if (!planned.breaks) return Outcome::kHolds;
+  return fits_body_limit(world, planned.edit, pieces_planned) ? Outcome::kBreaks
+                                                              : Outcome::kBodyLimit;
 }
 
-void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict) {
-  if (verdict == Verdict::kNoRoom) ++world.ledger.report.limits_hit;
-  if (verdict != Verdict::kHolds) return;
+void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) {
+  if (outcome == Outcome::kBodyLimit) ++world.conservation.report.limits_hit;
+  if (outcome != Outcome::kHolds) return;
   Actor& actor = *world.actors.find(planned.impact.key);
   const double energy_J = planned.impact.energy_J;
   if (planned.by_pattern && !planned.command.plug)
-    actor.least_J = std::max(
-        actor.least_J, planned.edit.changed ? kWorthPlanning * planned.needed_J : 1.4 * energy_J);
+    actor.least_J =
+        std::max(actor.least_J,
+                 planned.edit.changed ? kReplanEnergyShare * planned.needed_J : 1.4 * energy_J);
   if (!planned.by_stress) return;
   if (planned.stressed.undecided) {
     actor.stress.memory = planned.stressed.memory;
     return;
   }
-  if (!gives_way(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
-  if (!std::isfinite(planned.far_J)) return;
-  const BlowStress& blow = planned.stressed.blow;
-  // The bending of a solid of mass M takes at most J² / 2M: its stress grows with the impulse.
+  if (!breaks_or_bends(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
+  if (!std::isfinite(planned.transmitted_J)) return;
+  const ImpulsiveStress& blow = planned.stressed.blow;
+  // The bending energy of a solid of mass M is at most J² / 2M: stress grows with the impulse.
   if (blow.worst > 0)
     actor.stress.least_Ns =
-        std::max(actor.stress.least_Ns, kWorthPushing * planned.impulse_Ns / blow.worst);
+        std::max(actor.stress.least_Ns, kRetryImpulseShare * planned.impulse_Ns / blow.worst);
   const double bends_J = (1 - blow.local) * energy_J;
   actor.stress.least_J =
       std::max(actor.stress.least_J,
-               blow.worst > 0 ? kWorthAsking * bends_J / (blow.worst * blow.worst) : energy_J);
+               blow.worst > 0 ? kRetryEnergyShare * bends_J / (blow.worst * blow.worst) : energy_J);
 }
 
 void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
-  const Impact& impact = planned.impact;
+  const ActorImpact& impact = planned.impact;
   Actor& actor = *world.actors.find(impact.key);
   const std::vector<ExposedFace>& bare = planned.edit.loose.exposed;
   const Convex& broken = planned.at_bonds && !bare.empty()
                              ? planned.edit.exposed_convex(actor.structure, bare[0])
                              : *actor.structure.convex(impact.convex);
-  BreakEvent event = break_of(world, actor, broken.material);
+  BreakEvent event = make_break_event(world, actor, broken.material);
   event.point_W = impact.point_W;
   event.energy_J = planned.needed_J;
   event.new_area_m2 = area_m2(planned);
@@ -345,17 +351,17 @@ void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   }
   const bool only_bends = planned.only_bends();
   if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
-  world.ledger.report.failed += planned.edit.loose.failed;
-  world.ledger.report.failed_m3 += planned.edit.loose.failed_m3;
-  breaker.note_carried_out(planned.edit.loose);
+  world.conservation.report.failed += planned.edit.loose.failed;
+  world.conservation.report.failed_m3 += planned.edit.loose.failed_m3;
+  breaker.on_applied(planned.edit.loose);
   if (planned.edit.changed) {
     const std::uint32_t first_key = world.actors.next_key();
-    event.child_keys = carry_out(world, impact.key, planned.edit);
-    if (!planned.at_bonds) drive_out(world, planned, first_key);
-  } else {  // it is cracked, and hangs together still
+    event.child_keys = apply_break(world, impact.key, planned.edit);
+    if (!planned.at_bonds) apply_plastic_collision(world, planned, first_key);
+  } else {  // cracked, but still in one piece
     actor.structure.apply(planned.edit);
   }
-  if (!only_bends) world.ledger.breaks.push_back(std::move(event));
+  if (!only_bends) world.conservation.breaks.push_back(std::move(event));
 }
 
 }  // namespace sunder

@@ -1,7 +1,8 @@
-// An impact, and what it would do: planned, but not carried out. Internal to engine/world.
+// Planned breaks: an impact and the edit that it would make to a structure. Internal to
+// engine/world.
 //
-// There are two ways to break: by the material's pattern, where the impact lands, and by stress,
-// where the impact overloads bonds. Both are planned where both may be.
+// A solid breaks in one of two modes: by the material's pattern, at the point of impact, or by
+// stress, at the bonds that the impact overloads. Both are planned if both are possible.
 #pragma once
 
 #include <cstdint>
@@ -10,79 +11,81 @@
 #include <vector>
 
 #include "engine/model/breaker.h"
+#include "engine/model/impact_probe.h"
 #include "engine/world/actors/impact.h"
 #include "engine/world/actors/world.h"
-#include "engine/world/break/break_probe.h"
 
 namespace sunder {
 
-/// The prism that a fast striker sweeps, in the rest frame of the solid: the striker's
-/// cross-section through the thickness of the solid. It has no corners if the striker is slow or
-/// unknown.
-struct StrikersWay {
+/// Prism that a fast striker sweeps, in the rest frame of the solid: the striker's cross-section
+/// through the thickness of the solid. Without corners if the striker is slow or unknown.
+struct SweptPrism {
   std::vector<Vec3> section_R = {};
   Vec3 point_R = Vec3::Zero(), direction_R = Vec3::UnitY();
   double thickness_m = 0;
 };
 
+/// An impact on an actor with the plans of both modes, and the mode chosen of them.
 struct PlannedBreak {
-  Impact impact;
-  std::uint32_t load = 0;              ///< Index in the probe's answer.
-  std::uint32_t striker = kNobodyKey;  ///< Key of the body that strikes.
-  double speed_m_s = 0;                ///< Closing speed of the striker; 0: not known.
-  double impulse_Ns = 0;               ///< Sum over the contacts that load the actor.
-  std::vector<Load> impulses;          ///< All that the actor feels, N·s in place of N.
-  double far_J = 0;                    ///< Energy that gets through to the rest, at most; of a
-                                       ///< blast infinite, as nothing strikes.
-  bool by_pattern = true;              ///< Strong enough for the material,
-  bool by_stress = false;              ///< and for some bond.
-  BreakCommand command;                ///< By pattern.
-  StrikersWay way;                     ///< Through the solid.
-  StressAnswer stressed;               ///< By stress.
-  BreakEdit edit;                      ///< Of the way that it breaks.
-  /// Of bonds, that a plan by stress may take before it is put off.
-  std::uint64_t most_visits = std::numeric_limits<std::uint64_t>::max();
+  ActorImpact impact;
+  std::uint32_t load = 0;               ///< Index in the loads of the probe.
+  std::uint32_t striker = kNoActorKey;  ///< Key of the body that strikes.
+  double speed_m_s = 0;                 ///< Closing speed of the striker; 0: unknown.
+  double impulse_Ns = 0;                ///< Sum over the contacts that load the actor.
+  std::vector<AppliedForce> impulses;   ///< All impulses on the actor, N·s in place of N.
+  double transmitted_J = 0;             ///< Upper bound of the energy that reaches the rest of the
+                                        ///< actor; infinite for blasts, which have no striker.
+  bool by_pattern = true;               ///< Strong enough to break the material.
+  bool by_stress = false;               ///< Perhaps strong enough to break bonds.
+  BreakCommand command;                 ///< Command of the break by pattern.
+  SweptPrism swept;                     ///< Prism that the striker sweeps through the solid.
+  StressResult stressed;                ///< Result of the plan by stress.
+  BreakEdit edit;                       ///< Edit of the chosen mode.
+  /// Bond evaluations that a plan by stress may take before it is deferred.
+  std::uint64_t max_bond_evaluations = std::numeric_limits<std::uint64_t>::max();
   double plan_ms = 0;
-  double needed_J = 0;    ///< By its cracks, or by the plug if that takes more,
-  double crushing_J = 0;  ///< which is this much more.
-  bool breaks = false;    ///< The impact pays for them.
-  bool at_bonds = false;  ///< By stress.
+  double needed_J = 0;    ///< Energy of the cracks, or of the plug if greater.
+  double crushing_J = 0;  ///< Part of needed_J beyond the cracks.
+  bool breaks = false;    ///< The energy of the impact suffices.
+  bool at_bonds = false;  ///< The chosen mode is by stress.
 
-  /// Effective mass of what strikes, from the work that it can do.
+  /// Effective mass of the striker, from its work and speed.
   double striker_kg() const { return 2 * impact.energy_J / (speed_m_s * speed_m_s); }
-  /// It parts at hinges and cracks nowhere.
+  /// True if the break only makes plastic hinges, and no cracks.
   bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };
 
 /// Returns true if an impact breaks the convex that it strikes by its pattern: if the stress of the
-/// wave or the strain energy of the whole exceeds the convex's limit (docs/decisions/049).
+/// wave or the strain energy of the solid exceeds the convex's limit (docs/decisions/049).
 /// `striker` is null for the ground.
-bool breaks_where_struck(const World& world, const Actor& actor, const ProbeLoad& load,
+bool breaks_where_struck(const World& world, const Actor& actor, const ImpactLoad& load,
                          const Actor* striker);
 
-/// True if an impact at that speed shears the solid at the striker's edge before waves have carried
-/// the load away: v > τ / (ρ c), with the shear strength τ and c = √(E / 2.4 ρ).
+/// Returns true if an impact at this speed shears the solid at the striker's edge before waves
+/// carry the load away: v > τ / (ρ c), with the shear strength τ and c = √(E / 2.4 ρ).
 bool breaks_before_waves_arrive(const Material& material, double speed_m_s);
 
-/// Makes the command that the impact amounts to.
-void prepare(const World& world, const Breaker& breaker, std::uint64_t event,
-             PlannedBreak& planned);
-/// How many parts its command cuts, about: what it costs follows that (docs/decisions/032).
+/// Makes the break command of the impact, and the prism that its striker sweeps.
+void prepare_command(const World& world, const Breaker& breaker, std::uint64_t event,
+                     PlannedBreak& planned);
+/// Returns the approximate number of parts that the command cuts, the measure of its cost
+/// (docs/decisions/032).
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned);
-/// Plans what is prepared, in parallel; nothing changes yet.
+/// Plans prepared breaks, in parallel, without changes to the world.
 void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak* const> all);
 
-enum class Verdict {
-  kHolds,   ///< The impact does not pay for the crack.
-  kNoRoom,  ///< The limit of bodies forbids it.
+enum class Outcome {
+  kHolds,      ///< The impact has too little energy for the crack.
+  kBodyLimit,  ///< The limit of bodies forbids the break.
   kBreaks,
 };
-/// With so many pieces of others to come.
-Verdict verdict_on(const World& world, const PlannedBreak& planned, std::size_t to_come = 0);
-/// Remembers what an impact lacked, if it did.
-void note_verdict(World& world, const PlannedBreak& planned, Verdict verdict);
+/// Returns the outcome of a planned break if other breaks of the step add `pieces_planned` pieces.
+Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t pieces_planned = 0);
+/// Counts a reached limit; after an impact that breaks nothing, raises the actor's limits so that
+/// similar impacts are not planned again.
+void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome);
 
-/// Breaks the actor of an impact that has paid for it.
+/// Breaks the actor of a planned break whose energy has been taken from the motion.
 void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned);
 
 }  // namespace sunder

@@ -15,11 +15,12 @@ namespace {
 
 constexpr int kRoundCorners = 8;  // of the section of a sphere
 constexpr std::size_t kMostCorners = 8;
-constexpr double kAround = 1.5;  // of a section, what is looked at around it
+// Scale about its centre of a section to the points around it that are tested for material.
+constexpr double kRingScale = 1.5;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Takes out corners until few are left, those first that cut off least.
+/// Removes corners, those that cut off the least area first, until kMostCorners are left.
 void simplify(std::vector<Vec2>& hull) {
   while (hull.size() > kMostCorners) {
     std::size_t least = 0;
@@ -34,7 +35,7 @@ void simplify(std::vector<Vec2>& hull) {
   }
 }
 
-/// Two unit vectors across a direction, right-handed with it as the third.
+/// Returns two unit vectors perpendicular to a direction; with it as the third, right-handed.
 std::pair<Vec3, Vec3> axes_across(const Vec3& direction) {
   const Vec3 any = std::abs(direction.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitZ();
   const Vec3 first = any.cross(direction).normalized();
@@ -42,21 +43,21 @@ std::pair<Vec3, Vec3> axes_across(const Vec3& direction) {
 }
 
 /// Returns true if a piece of the solid reaches into the prism that the striker sweeps.
-bool in_the_way(const StrikersWay& way, const Vec3& com_R, double volume_m3) {
+bool is_in_prism(const SweptPrism& prism, const Vec3& com_R, double volume_m3) {
   const double reach_m = 0.5 * std::cbrt(volume_m3);
-  const double along_m = (com_R - way.point_R).dot(way.direction_R);
-  if (along_m > way.thickness_m) return false;
-  for (std::size_t i = 0; i < way.section_R.size(); ++i) {
-    const Vec3& corner = way.section_R[i];
-    const Vec3 side = way.section_R[(i + 1) % way.section_R.size()] - corner;
-    if (way.direction_R.cross(side).normalized().dot(com_R - corner) < -reach_m) return false;
+  const double along_m = (com_R - prism.point_R).dot(prism.direction_R);
+  if (along_m > prism.thickness_m) return false;
+  for (std::size_t i = 0; i < prism.section_R.size(); ++i) {
+    const Vec3& corner = prism.section_R[i];
+    const Vec3 side = prism.section_R[(i + 1) % prism.section_R.size()] - corner;
+    if (prism.direction_R.cross(side).normalized().dot(com_R - corner) < -reach_m) return false;
   }
   return true;
 }
 
-/// Speed that a body gains at a point along an axis, for each N·s there.
-double give_per_kg(const Actor& actor, const BodyState& state, const Vec3& point_W,
-                   const Vec3& axis_W) {
+/// Returns the speed along an axis that a body gains at a point per impulse along the axis there.
+double inverse_effective_mass(const Actor& actor, const BodyState& state, const Vec3& point_W,
+                              const Vec3& axis_W) {
   if (actor.is_kinematic) return 0;
   const Mat3 R_WB = state.X_WB.rotation.toRotationMatrix();
   const Vec3 turn_B = R_WB.transpose() * (point_W - state.X_WB.position).cross(axis_W);
@@ -67,8 +68,8 @@ double give_per_kg(const Actor& actor, const BodyState& state, const Vec3& point
 bool is_blocked(const World& world, const PlannedBreak& planned) {
   const Actor* left = world.actors.find(planned.impact.key);
   if (planned.command.plug) return !planned.command.plug->through;
-  return left && thickness_along(left->structure, planned.way.point_R, planned.way.direction_R,
-                                 planned.way.thickness_m) > 0;
+  return left && thickness_along(left->structure, planned.swept.point_R, planned.swept.direction_R,
+                                 planned.swept.thickness_m) > 0;
 }
 
 }  // namespace
@@ -130,18 +131,18 @@ double confinement(const Structure& structure, const std::vector<Vec3>& section_
   Vec3 middle_R = Vec3::Zero();
   for (const Vec3& corner : section_R) middle_R += corner / static_cast<double>(section_R.size());
   const auto is_filled = [&](const Vec3& corner) {
-    const Vec3 point_R = middle_R + kAround * (corner - middle_R) + depth_m * direction_R;
+    const Vec3 point_R = middle_R + kRingScale * (corner - middle_R) + depth_m * direction_R;
     return std::ranges::any_of(structure.within(point_R, 0), [&](ConvexSlot slot) {
-      return distance_outside(*structure.convex(slot), point_R) <= 0;
+      return distance_to(*structure.convex(slot), point_R) <= 0;
     });
   };
   return static_cast<double>(std::ranges::count_if(section_R, is_filled)) /
          static_cast<double>(section_R.size());
 }
 
-void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
+void apply_plastic_collision(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
   const Actor* striker = world.actors.find(planned.striker);
-  if (planned.way.section_R.empty() || !striker || is_blocked(world, planned)) return;
+  if (planned.swept.section_R.empty() || !striker || is_blocked(world, planned)) return;
   const std::optional<Plug>& plug = planned.command.plug;
   const BodyStates states = world.physics->states();
   std::vector<const Actor*> pieces;
@@ -149,15 +150,15 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   Vec3 moment_kgm = Vec3::Zero();
   Vec3 axis_W = planned.impact.direction_W;
   double at_rest_m_s = 0;
-  const bool parts = planned.command.pattern.kind == PatternSpec::Kind::kNone;
+  const bool breaks_at_bonds = planned.command.pattern.kind == PatternSpec::Kind::kNone;
   const Vec3 axis_R =
-      plug ? Vec3(planned.command.X_RP.rotation * Vec3::UnitY()) : planned.way.direction_R;
+      plug ? Vec3(planned.command.X_RP.rotation * Vec3::UnitY()) : planned.swept.direction_R;
   for (const Actor& actor : world.actors) {
     if (actor.key < first_key || actor.is_static) continue;
     const Vec3& com_R = actor.weight.com_R;
-    if (parts && plug ? actor.structure.size() != 1
-        : plug        ? !plug->contains(planned.command.X_RP.inverse() * com_R)
-                      : !in_the_way(planned.way, com_R, actor.volume_m3))
+    if (breaks_at_bonds && plug ? actor.structure.size() != 1
+        : plug                  ? !plug->contains(planned.command.X_RP.inverse() * com_R)
+                                : !is_in_prism(planned.swept, com_R, actor.volume_m3))
       continue;
     pieces.push_back(&actor);
     plug_kg += actor.weight.mass_kg;
@@ -165,8 +166,8 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
     axis_W = rest_pose(actor, states[actor.body].X_WB).rotation * axis_R;
     at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
   }
-  // Debris of what is held takes its share of the momentum; that of a free body has the motion of
-  // the whole.
+  // Debris of a held solid takes its share of the momentum; debris of a free solid moves as the
+  // solid did.
   const bool is_held = world.actors.find(planned.impact.key) != nullptr;
   const double pieces_kg = plug_kg;
   const double debris_kg = is_held && plug ? std::max(0.0, plug->mass_kg - plug_kg) : 0;
@@ -177,7 +178,7 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   const double closing_m_s = state.field()(middle_W).dot(axis_W) - at_rest_m_s / plug_kg;
   if (!(closing_m_s > 0)) return;
   const double gain_m_s =
-      closing_m_s / (1 + plug_kg * give_per_kg(*striker, state, middle_W, axis_W));
+      closing_m_s / (1 + plug_kg * inverse_effective_mass(*striker, state, middle_W, axis_W));
   double gain_J = 0;
   for (const Actor* piece : pieces) {
     BodyState moved = world.physics->state(piece->body);
@@ -187,7 +188,7 @@ void drive_out(World& world, const PlannedBreak& planned, std::uint32_t first_ke
   if (!striker->is_kinematic)
     gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, middle_W);
   const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
-  EnergyFlows& energy = world.ledger.report.energy;
+  EnergyFlows& energy = world.conservation.report.energy;
   energy.debris += debris_J;
   energy.contacts -= gain_J + debris_J;
 }

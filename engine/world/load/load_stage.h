@@ -1,10 +1,10 @@
-// Stage `load`: own weight, what presses and pulls on a compound, and its spin break what they
-// overload. Internal to engine/world.
+// Stage `load`: self-weight, contact forces, joints and spin break the bonds that they overload.
+// Internal to engine/world.
 //
-// Read first: LoadStage::run(). What presses and pulls is averaged over a tenth of a second, so
-// that a push counts alike at every length of a step; impacts are the business of stage `break`. An
-// actor is judged when its load or spin has changed since it was judged last, or its bonds have.
-// The breaker judges by the stress in balance with the load: nothing is worn out by time.
+// Read first: LoadStage::run(). Forces are averaged over a tenth of a second, so that a short force
+// counts alike at every length of a step; impacts belong to stage `break`. The stress of an actor
+// is computed when its load, spin or bonds have changed since the last time. The breaker decides by
+// the stress in equilibrium with the load: there is no fatigue.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,19 @@ class LoadStage {
  public:
   explicit LoadStage(const Limits& limits) : work_a_frame_(limits.load_work_a_frame) {}
 
-  /// Before the first frame: what the breaker makes of a large solid to begin with is made, as that
-  /// takes longer than a frame has.
+  /// Lets the breaker make its stress systems of large solids before the first frame, as that takes
+  /// longer than a frame has.
   void prepare(World& world, const Breaker& breaker) const;
   void begin_frame();
-  /// After the solve.
+  /// Runs the stage after the solve.
   void run(World& world, const Breaker& breaker);
-  /// Actors whose load is not judged yet.
-  std::uint32_t waiting() const { return waiting_; }
+  /// Number of actors whose load is not evaluated yet.
+  std::uint32_t deferred() const { return deferred_; }
 
  private:
-  std::int64_t work_a_frame_;   ///< In visits of bonds.
-  std::int64_t work_left_ = 0;  ///< Of the frame; may be owed.
-  std::uint32_t waiting_ = 0;
+  std::int64_t work_a_frame_;   ///< In bond evaluations.
+  std::int64_t work_left_ = 0;  ///< Rest of the frame's work; may be negative.
+  std::uint32_t deferred_ = 0;
 };
 
 }  // namespace sunder

@@ -12,24 +12,25 @@
 namespace sunder {
 namespace {
 
-constexpr double kStill_s = 0.25;         // without flowing, the first time
-constexpr std::uint32_t kMostTimes = 12;  // that the wait is doubled
-constexpr std::uint64_t kWork = 3000;     // visits of each bond to find out what both bear
+constexpr double kRejoinDelay_s = 0.25;              // without yielding, for the first merge
+constexpr std::uint32_t kMaxDoublings = 12;          // of the delay
+constexpr std::uint64_t kEvaluationsPerBond = 3000;  // for the stress solve of the merged actor
 
 using Live = Joints::Live;
 
-/// Since which step a hinge is ready to be no more; none: it has flowed too lately.
-std::optional<std::uint64_t> still_since(const World& world, const Live& joint) {
+/// Returns the step from which on a hinge may be removed; none if that is later than now.
+std::optional<std::uint64_t> rejoin_step(const World& world, const Live& joint) {
   const Actor &a = *world.actors.find(joint.a.key), &b = *world.actors.find(joint.b.key);
-  const std::uint32_t times = std::min(kMostTimes, std::max(a.rejoined, b.rejoined));
-  const auto wait = static_cast<std::uint64_t>(std::ceil(kStill_s / world.clock.dt_s) *
+  const std::uint32_t times = std::min(kMaxDoublings, std::max(a.rejoined, b.rejoined));
+  const auto wait = static_cast<std::uint64_t>(std::ceil(kRejoinDelay_s / world.clock.dt_s) *
                                                std::ldexp(1.0, static_cast<int>(times)));
   const std::uint64_t ready = joint.hinge->flowed_step + wait;
-  if (joint.hinge->stays || ready > world.clock.step) return std::nullopt;
+  if (joint.hinge->rejoin_failed || ready > world.clock.step) return std::nullopt;
   return ready;
 }
 
-/// The one that takes in the other comes first: what stands, what is heavier, what is older.
+/// Returns the actor that takes in the other first: static before movable, then heavier, then
+/// older.
 std::pair<const Actor*, const Actor*> in_order(const Actor& x, const Actor& y) {
   const auto rank = [](const Actor& actor) {
     return std::tuple(actor.is_static, actor.weight.mass_kg, -static_cast<double>(actor.key));
@@ -52,9 +53,9 @@ BentSection section_of(const Hinge& hinge, bool a_first) {
   return bent;
 }
 
-/// Whether a hinge that stays finds all that it is of in what would become of its sides.
-bool goes_on(const Live& joint, std::uint32_t key_a, std::uint32_t key_b,
-             const Rejoined& rejoined) {
+/// Returns true if the convexes of a remaining hinge are part of the merged actor.
+bool keeps_sides(const Live& joint, std::uint32_t key_a, std::uint32_t key_b,
+                 const Rejoined& rejoined) {
   const auto finds = [&](const Joints::End& end, const HingeSide& side) {
     return std::ranges::all_of(side.slots, [&](std::uint32_t slot) {
       if (end.key == key_b) return !rejoined.slot_of_b[slot].none();
@@ -65,12 +66,12 @@ bool goes_on(const Live& joint, std::uint32_t key_a, std::uint32_t key_b,
   return !joint.hinge || (finds(joint.a, joint.hinge->a) && finds(joint.b, joint.hinge->b));
 }
 
-/// What both bear, as one that has bent would. Between them press their hinges alone, on what these
-/// are of: that is left out.
-class Both {
+/// AppliedForce case of the merged actor: the loads of both, without those on the convexes of the
+/// hinges between the two, which become internal.
+class MergedLoadCase {
  public:
-  Both(const World& world, const Actor& a, const Actor& b, const Rejoined& rejoined,
-       const Pose& X_AB)
+  MergedLoadCase(const World& world, const Actor& a, const Actor& b, const Rejoined& rejoined,
+                 const Pose& X_AB)
       : rejoined_(rejoined), a_(a), b_(b), structure_(a.structure) {
     structure_.apply(rejoined.edit);
     add(world, a, Pose());
@@ -80,20 +81,20 @@ class Both {
     const Quat& rotation_WA = world.physics->state(a.body).X_WB.rotation;
     load_.gravity_R = rotation_WA.conjugate() * world.scene.gravity_W;
     load_.spin_R = a.stress.spin_R;
-    load_.most_work = kWork * (structure_.bond_count() + 1);
+    load_.most_work = kEvaluationsPerBond * (structure_.bond_count() + 1);
     std::ranges::sort(load_.hinged);
   }
 
-  /// Whether they can.
-  bool bears(const Breaker& breaker, std::uint64_t& work) const {
-    const StressAnswer answer = breaker.stress(structure_, load_);
+  /// Returns true if the merged actor withstands its loads.
+  bool withstands(const Breaker& breaker, std::uint64_t& work) const {
+    const StressResult answer = breaker.stress(structure_, load_);
     work += answer.work;
     return answer.settled && !answer.edit.changed && answer.edit.cut.empty();
   }
 
  private:
-  /// none() if it ends otherwise.
-  ConvexSlot now(const Actor& of, ConvexSlot slot) const {
+  /// Returns the slot in the merged actor; none() if the convex was cut.
+  ConvexSlot merged_slot_of(const Actor& of, ConvexSlot slot) const {
     if (&of == &b_) return rejoined_.slot_of_b[slot.value];
     return structure_.has(slot) ? slot : ConvexSlot();
   }
@@ -109,23 +110,23 @@ class Both {
         if (inner) {
           between.emplace_back(slot);
         } else {
-          load_.hinged.push_back(now(actor, ConvexSlot(slot)));
+          load_.hinged.push_back(merged_slot_of(actor, ConvexSlot(slot)));
         }
       }
     }
-    for (const Press& press : actor.stress.pressing) {
-      if (std::ranges::find(between, press.convex) != between.end()) continue;
-      const Vec3 at = X_AR * actor.structure.convex(press.convex)->solid.centroid;
-      ConvexSlot slot = now(actor, press.convex);
+    for (const AppliedForce& force : actor.stress.mean_forces) {
+      if (std::ranges::find(between, force.convex) != between.end()) continue;
+      const Vec3 at = X_AR * actor.structure.convex(force.convex)->solid.centroid;
+      ConvexSlot slot = merged_slot_of(actor, force.convex);
       if (slot.none()) slot = nearest(structure_, at);
-      loads_.push_back({slot, X_AR.rotation * press.force_R, at, X_AR.rotation * press.torque_R});
+      loads_.push_back({slot, X_AR.rotation * force.force_R, at, X_AR.rotation * force.torque_R});
     }
   }
 
   const Rejoined& rejoined_;
   const Actor &a_, &b_;
   Structure structure_;
-  std::vector<Load> loads_;
+  std::vector<AppliedForce> loads_;
   LoadCase load_;
 };
 
@@ -143,9 +144,9 @@ bool rejoin(World& world, const Breaker& breaker, const Actor& a, const Actor& b
   if (!rejoined.edit.changed) return false;
   for (const Live& joint : world.joints.live()) {
     if (joint.is_between(a.key, b.key) && joint.hinge) continue;
-    if (!goes_on(joint, a.key, b.key, rejoined)) return false;
+    if (!keeps_sides(joint, a.key, b.key, rejoined)) return false;
   }
-  if (!Both(world, a, b, rejoined, bent.X_AB).bears(breaker, work)) return false;
+  if (!MergedLoadCase(world, a, b, rejoined, bent.X_AB).withstands(breaker, work)) return false;
   for (const JointId id : hinges) world.joints.cut(*world.physics, id);
   merge(world, a.key, b.key, rejoined, bent.X_AB);
   return true;
@@ -158,15 +159,15 @@ std::uint64_t rejoin(World& world, const Breaker& breaker) {
   std::uint64_t since = 0;
   for (const Live& joint : world.joints.live()) {
     if (!joint.hinge) continue;
-    const auto still = still_since(world, joint);
-    if (!still || (oldest && *still >= since)) continue;
+    const auto ready = rejoin_step(world, joint);
+    if (!ready || (oldest && *ready >= since)) continue;
     const bool all = std::ranges::all_of(world.joints.live(), [&](const Live& other) {
       return !other.hinge || !other.is_between(joint.a.key, joint.b.key) ||
-             still_since(world, other);
+             rejoin_step(world, other);
     });
     if (!all) continue;
     oldest = &joint;
-    since = *still;
+    since = *ready;
   }
   if (!oldest) return 0;
   const JointId id = oldest->id;
@@ -174,7 +175,7 @@ std::uint64_t rejoin(World& world, const Breaker& breaker) {
       in_order(*world.actors.find(oldest->a.key), *world.actors.find(oldest->b.key));
   std::uint64_t work = 0;
   const bool can = !b->is_static && rejoin(world, breaker, *a, *b, work);
-  if (!can) world.joints.at(id).hinge->stays = true;
+  if (!can) world.joints.at(id).hinge->rejoin_failed = true;
   return work;
 }
 

@@ -1,4 +1,4 @@
-// What has bent becomes one again. Internal to engine/world.
+// Rejoining of bodies at bent plastic hinges. Internal to engine/world.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,11 @@
 
 namespace sunder {
 
-/// Two actors that hinges hold, none of which has flowed for a while, become one, if they can and
-/// would bear, as one, what both do: a pair a step, the one that has been still for longest. What
-/// has hardened may bear more in joints, and stays so. Returns the work that finding out took, as
-/// StressAnswer has it.
-///
-/// What moves may part at once again, in the same place, by another load: so each time the wait is
-/// twice as long.
+/// Merges two actors that hinges hold, if none of the hinges has yielded for a while and the merged
+/// actor withstands the loads of both. One pair a step: the one at rest for longest. A hardened
+/// section may bear more as a joint, and then stays one. Returns the work in bond evaluations, as
+/// StressResult does. A merged body under changing loads may part again at once at the same place:
+/// each time the delay doubles.
 std::uint64_t rejoin(World& world, const Breaker& breaker);
 
 }  // namespace sunder

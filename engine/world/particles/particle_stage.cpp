@@ -11,28 +11,28 @@ namespace {
 
 constexpr std::size_t kBodiesInChunk = 64, kDebrisInChunk = 4096;
 
-/// A face where it was when the frame began, moving as it does now; a face of what is gone again
-/// moves as the solid did that it came off.
-Emission emission_of(const World& world, const BodyStates& states, const Exposed::Parent& parent,
-                     const Exposed::Face& face, std::span<const Vec3> corners_R,
-                     std::vector<Vec3>& corners_W) {
+/// Returns the emission of a face at its position at the start of the frame, with its current
+/// motion. If the actor with the face is gone, the face moves as the broken solid did.
+ExposedPolygon emission_of(const World& world, const BodyStates& states,
+                           const Exposed::Parent& parent, const Exposed::Face& face,
+                           std::span<const Vec3> corners_R, std::vector<Vec3>& corners_W) {
   Pose X_WR = parent.motion.X_WR;
-  Emission emission;
+  ExposedPolygon emission;
   emission.motion = parent.motion.field;
-  emission.parting_m_s = 0;
+  emission.opening_speed_m_s = 0;
   emission.material = face.material;
   emission.crumbling = world.material(face.material).crumbling;
-  double back_s = parent.back_s;
+  double back_s = parent.since_frame_start_s;
   if (const Actor* owner = world.actors.find(face.owner_key)) {
     const Motion now = motion_of(*owner, states[owner->body]);
     const Vec3 was_W = parent.motion.X_WR * corners_R[0];
     X_WR = now.X_WR;
     emission.motion = now.field;
     const Vec3 velocity_W = emission.motion(X_WR * corners_R[0]);
-    emission.parting_m_s = (velocity_W - parent.motion.field(was_W)).norm();
+    emission.opening_speed_m_s = (velocity_W - parent.motion.field(was_W)).norm();
     back_s = world.clock.frame_s();
   }
-  // Turned back, too: going on straight, the corners of what spins would fly off.
+  // Rotation is undone too, as the corners of a spinning face must stay together.
   VelocityField& motion = emission.motion;
   const Mat3 turn(rotation_by(-back_s * motion.angular_velocity_W));
   const Vec3 was_at_W = motion.at_W - back_s * motion.velocity_W;
@@ -45,9 +45,9 @@ Emission emission_of(const World& world, const BodyStates& states, const Exposed
 
 void emit(const World& world, const Exposed& exposed, Particles& particles) {
   const BodyStates states = world.physics->states();
-  std::vector<Emission> emissions;
+  std::vector<ExposedPolygon> emissions;
   std::vector<Vec3> corners_W;
-  corners_W.reserve(exposed.corners_R.size());  // spans into it stay
+  corners_W.reserve(exposed.corners_R.size());  // spans into it must stay valid
   std::size_t begin = 0;
   for (const Exposed::Face& face : exposed.faces) {
     const std::size_t count = face.corners_end - begin;
@@ -61,13 +61,13 @@ void emit(const World& world, const Exposed& exposed, Particles& particles) {
   if (!exposed.chips.empty()) particles.emit(exposed.chips);
 }
 
-/// All bodies as they stand, with the convexes they consist of.
+/// All bodies with their convexes.
 struct Surroundings {
   std::vector<ObstacleBody> bodies;
   std::vector<ObstacleShape> shapes;
 };
 
-/// The ground's meshes, as the last body.
+/// Adds the ground's meshes as the last body.
 void add_landscape(const World& world, Surroundings& all) {
   const std::vector<ObstacleShape>& obstacles = world.landscape.obstacles;
   if (obstacles.empty()) return;
@@ -80,7 +80,7 @@ void add_landscape(const World& world, Surroundings& all) {
   }
 }
 
-/// By several threads, as it is mostly waiting for memory.
+/// Returns all bodies; made in parallel, as the work is bound by memory.
 Surroundings surroundings(const World& world) {
   const BodyStates states = world.physics->states();
   const std::size_t count = world.actors.size();

@@ -1,8 +1,8 @@
-// Stage `particles`: debris and dust come off what breaks laid bare, and move among the bodies.
+// Stage `particles`: exposed faces and chips become debris and dust, which move among the bodies.
 // Internal to engine/world.
 //
-// Read first: ParticleStage::run(). Particles move once a frame, whatever the step, as they are for
-// the eye; what breaks within a frame is noted as if it had been there from the frame's start.
+// Read first: ParticleStage::run(). Particles advance once a frame, whatever the step, as they are
+// only seen; breaks within a frame count from the frame's start.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,23 @@ namespace sunder {
 
 class ParticleStage {
  public:
-  /// Null: there is no debris and no dust.
+  /// Without particles (null), there are neither debris nor dust.
   explicit ParticleStage(std::unique_ptr<Particles> particles) : particles_(std::move(particles)) {}
 
   bool any() const { return particles_ != nullptr; }
-  /// Debris and dust in the air and at rest.
+  /// Number of particles of debris and dust, moving or at rest.
   std::uint64_t alive() const {
     const ParticleReport report = particles_->report();
     return std::uint64_t{report.debris.alive} + report.dust.alive;
   }
-  /// At the end of a frame's last step: what the frame's breaks laid bare comes off, and moves.
+  /// Emits the particles of the frame's breaks and advances all, at the end of a frame's last step.
   void run(const World& world, const Exposed& exposed);
-  /// Debris and dust as they are, and what there was no room for since the last frame.
+  /// Adds debris and dust to a frame, and counts a limit reached since the last frame.
   void show(Frame& frame);
 
  private:
   std::unique_ptr<Particles> particles_;
-  std::uint64_t ignored_ = 0;  ///< Up to the last frame, for want of room.
+  std::uint64_t ignored_ = 0;  ///< Particles not emitted for lack of room, up to the last frame.
 };
 
 }  // namespace sunder

@@ -1,4 +1,4 @@
-// Adding, removing, placing, freezing and waking of bodies; adding of shapes.
+// Adds, removes, places, freezes and wakes bodies; adds shapes.
 #include "solver/rigid/body/bodies.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kBodiesAChunk = 256;
 
-/// Principal axes scaled by the square roots of the inverse moments, and whether those differ by
+/// Principal axes divided by the square roots of the moments; `uneven` if the moments differ by
 /// more than rounding.
 struct InertiaRoot {
   Mat3f root = Mat3f::Zero();
@@ -73,10 +73,10 @@ void Bodies::resize(std::uint32_t count) {
   inertia_B.resize(count);
   inverse_mass.resize(count);
   root_B.resize(count);
-  spins_freely.resize(count);
+  is_gyroscopic.resize(count);
   reach_m.resize(count);
   turned_m.resize(count);
-  slow_s.resize(count);
+  resting_s.resize(count);
   lost_N.resize(count);
   rest_position.resize(count);
   rest_rotation.resize(count);
@@ -106,14 +106,14 @@ BodySlot Bodies::add(const BodyDesc& desc) {
   inertia_B[body] = Mat3::Zero();
   inverse_mass[body] = 0;
   root_B[body].setZero();
-  spins_freely[body] = 0;
+  is_gyroscopic[body] = 0;
   if (awake(body)) {
     SUNDER_CHECK(desc.mass_kg > 0 && desc.inertia_B.allFinite());
     const InertiaRoot root = inertia_root(desc.inertia_B);
     inertia_B[body] = root.inertia;
     inverse_mass[body] = static_cast<float>(1 / desc.mass_kg);
     root_B[body] = root.root;
-    spins_freely[body] = root.uneven;
+    is_gyroscopic[body] = root.uneven;
   }
   reach_m[body] = 0;
   turned_m[body] = 0;
@@ -142,7 +142,7 @@ void Bodies::place(BodySlot body, const Vec3& position_W, const Quat& rotation_W
 }
 
 bool Bodies::finite(BodySlot body) const {
-  // Beyond 1e9 m/s squares no longer fit a float: as good as infinite.
+  // Above 1e9 m/s squares do not fit a float: counts as infinite.
   return position[body].allFinite() && rotation[body].coeffs().allFinite() &&
          velocity[body].cwiseAbs().maxCoeff() < 1e9 && velocity[body].allFinite() &&
          angular_velocity[body].cwiseAbs().maxCoeff() < 1e9 && angular_velocity[body].allFinite();
@@ -224,11 +224,11 @@ void Bodies::wake(BodySlot body) {
 }
 
 void Bodies::restart_rest(BodySlot body) {
-  slow_s[body] = 0;
+  resting_s[body] = 0;
   lost_N[body] = 0;
 }
 
-void Bodies::end_news() {
+void Bodies::clear_step_flags() {
   std::fill(is_new.begin(), is_new.end(), std::uint8_t{0});
   std::fill(displaced.begin(), displaced.end(), std::uint8_t{0});
 }

@@ -1,4 +1,4 @@
-// A body as the sweeps of contacts and joints see it.
+// State of a body in the sweeps of contacts and joints.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace sunder::solver {
 
-/// A body within a step. Lanes: linear 0 to 2, angular (root space) 3 to 5.
+/// State of a body within a step. Lanes 0 to 2 are linear, 3 to 5 angular (root space).
 struct alignas(64) BodyRow {
   Wide velocity;
-  Wide position;  ///< Way and rotation since the step began.
-  Wide base;      ///< Velocity of the substep before any contact acted.
+  Wide position;  ///< Displacement and rotation since the step began.
+  Wide base;      ///< Velocity in the substep before any contact impulse.
   Wide start;     ///< Velocity when the step began.
 };
 
-/// Of a dynamic body. Row 0 stays still; before it lie those of kinematic bodies on their way,
-/// counted down from -1: all read them, and nobody writes.
+/// Returns the row of a dynamic body. Row 0 is immovable. Rows of moving kinematic bodies have
+/// indices from -1 downwards and are only read.
 inline std::uint32_t row_of(BodySlot body) { return body.value + 1; }
 
 inline Vec3f linear(const Wide& of_row) { return {of_row[0], of_row[1], of_row[2]}; }

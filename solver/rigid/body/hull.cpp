@@ -1,4 +1,4 @@
-// Layout of a hull. Topology comes from the polyhedron: no hull is computed here.
+// Layout of a hull. Its topology is that of the polyhedron: no hull is computed here.
 #include "solver/rigid/body/hull.h"
 
 #include <algorithm>
@@ -6,14 +6,14 @@
 
 #include "engine/base/check.h"
 #include "solver/base/lanes.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
   SUNDER_CHECK(!convex.empty() && convex.vertices.size() < 0xffff &&
                convex.corners.size() < 0xffff);
   vertex_count_ = static_cast<std::uint32_t>(convex.vertices.size());
-  vertices_.resize(wide_count(vertex_count_));
+  vertices_.resize(lane_groups(vertex_count_));
   Vec3 sum = Vec3::Zero();
   for (std::uint32_t i = 0; i < vertices_.size() * kLanes; ++i) {
     const Vec3 v = convex.vertices[std::min(i, vertex_count_ - 1)] - com_R;
@@ -25,7 +25,7 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
   center_ = (sum / vertex_count_).cast<float>();
 
   const auto faces = static_cast<std::uint32_t>(convex.faces.size());
-  planes_.resize(wide_count(faces));
+  planes_.resize(lane_groups(faces));
   core_radius_ = reach_ + center_.norm();
   for (std::uint32_t i = 0; i < planes_.size() * kLanes; ++i) {
     const Plane& plane = convex.faces[std::min(i, faces - 1)].plane;
@@ -36,7 +36,7 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
     core_radius_ = std::min(core_radius_, to_center);
   }
   core_radius_ = std::max(core_radius_, 0.f);
-  inner_radius_ = std::max(core_radius_, kLeastInner * reach_);
+  inner_radius_ = std::max(core_radius_, kMinInnerRadius * reach_);
 
   corners_.reserve(convex.corners.size());
   face_first_.reserve(faces + 1);
@@ -49,7 +49,8 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
   add_edges();
 }
 
-/// Sorted by their vertices, so that the two of an edge are neighbours: by counting, twice.
+/// Returns the half edges sorted by their vertices, so that the two of an edge are neighbours; two
+/// passes of counting sort.
 std::vector<Hull::HalfEdge> Hull::half_edges() const {
   std::vector<HalfEdge> halves, sorted(corners_.size());
   halves.reserve(corners_.size());

@@ -1,4 +1,5 @@
-// A convex hull laid out for collision: floats about the body's centre of mass, eight at a time.
+// A convex hull in the layout of collision tests: floats about the body's centre of mass, in chunks
+// of eight.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +14,21 @@
 
 namespace sunder::solver {
 
-/// Immutable once made. Arrays are padded to whole chunks by repeating the last item, which
-/// changes no minimum and no maximum.
+/// Immutable. Arrays are padded to whole chunks by repeating the last item, which changes no
+/// minimum and no maximum.
 class Hull {
  public:
   Hull() = default;
-  /// `com_R` becomes the origin; axes stay those of the rest frame.
+  /// Makes a hull with `com_R` as its origin and the axes of the rest frame.
   Hull(const ConvexPolyhedron& convex, const Vec3& com_R);
 
   struct PlaneChunk {
     Wide3 normal;
     Wide d;
   };
-  /// From vertex to vertex, counter-clockwise in the left of its faces. `bulge` bounds how much
-  /// further a unit normal between the two faces' may reach than the better of them.
+  /// Edge between two vertices, counter-clockwise in its left face. `bulge` is an upper bound: a
+  /// unit normal between those of the two faces reaches at most `bulge` times as far as the better
+  /// of them.
   struct Edge {
     std::uint16_t from, to, left, right;
     float bulge;
@@ -49,7 +51,7 @@ class Hull {
     return {edges_[e].from, edges_[e].to};
   }
 
-  /// Asks for what a look at it reads.
+  /// Prefetches the memory that a test reads.
   void prefetch() const {
     solver::prefetch(vertices(), 4);
     solver::prefetch(planes(), 4);
@@ -59,21 +61,21 @@ class Hull {
   }
 
   const Vec3f& center() const { return center_; }
-  /// Of a sphere about the origin (the centre of mass of the body) that holds the hull.
+  /// Radius of a sphere about the origin (the body's centre of mass) that encloses the hull.
   float reach_m() const { return reach_; }
-  /// Of a ball about the centre that lies within.
+  /// Radius of a ball about the centre that lies within the hull.
   float core_radius_m() const { return core_radius_; }
-  /// Least distance from the centre to a face, but not absurdly little: the yardstick of
-  /// tolerances.
+  /// Distance from the centre to the nearest face, at least kMinInnerRadius of the reach: the unit
+  /// of tolerances.
   float inner_radius_m() const { return inner_radius_; }
 
   static Vec3f lane(const Wide3& v, std::uint32_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
  private:
   struct HalfEdge {
-    std::uint16_t least, most;  ///< Its vertices.
+    std::uint16_t least, most;  ///< Vertices of the edge, the smaller index first.
     std::uint16_t face;
-    bool forward;  ///< From the lesser to the greater.
+    bool forward;  ///< True if it runs from the smaller vertex index to the greater.
   };
   std::vector<HalfEdge> half_edges() const;
   void add_edges();

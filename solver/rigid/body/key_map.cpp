@@ -39,7 +39,7 @@ void KeyMap::erase(std::uint64_t key) {
     SUNDER_CHECK(entries_[hole].key != kEmpty);
     hole = (hole + 1) & mask;
   }
-  // Shift back whatever would no longer be found across the hole.
+  // Shift back entries that a search would no longer find across the hole.
   for (std::size_t i = (hole + 1) & mask; entries_[i].key != kEmpty; i = (i + 1) & mask) {
     if (((i - home(entries_[i].key)) & mask) < ((i - hole) & mask)) continue;
     entries_[hole] = entries_[i];

@@ -1,5 +1,5 @@
-// A map from 64-bit keys to slots, by open addressing. Nothing iterates over it, so its order
-// decides nothing.
+// A map from 64-bit keys to slots, by open addressing. Nothing iterates over it, so its order has
+// no effect on results.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,13 @@ class KeyMap {
  public:
   static constexpr std::uint32_t kAbsent = 0xffffffff;
 
-  /// The slot of a key, or kAbsent.
+  /// Returns the slot of a key, or kAbsent.
   std::uint32_t find(std::uint64_t key) const;
   bool contains(std::uint64_t key) const { return find(key) != kAbsent; }
-  void insert(std::uint64_t key, std::uint32_t slot);  ///< The key must not be in it.
-  void erase(std::uint64_t key);                       ///< The key must be in it.
-  void expect(std::size_t more);                       ///< Makes room for so many more keys.
+  /// Inserts a key that the map does not have.
+  void insert(std::uint64_t key, std::uint32_t slot);
+  void erase(std::uint64_t key);  ///< Erases a key that the map has.
+  void expect(std::size_t more);  ///< Reserves memory for `more` keys.
 
  private:
   struct Entry {

@@ -1,4 +1,4 @@
-// Bodies that sit a solve out: asleep for its length, and then they go on as they were.
+// Bodies paused for a solve: they do not move in it, and keep their motion.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace sunder::solver {
 
 class Paused {
  public:
-  /// From the next stop() to the release() after it.
+  /// Pauses a body for the solve between the next suspend() and resume().
   void add(BodySlot body) { items_.push_back({body}); }
-  /// Those that are awake fall asleep.
-  void stop(Bodies& bodies) {
+  /// Stores the motion of paused bodies that are awake, and puts them to sleep.
+  void suspend(Bodies& bodies) {
     std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });
     std::ranges::sort(items_, {}, &Item::body);
     const auto same = [](const Item& x, const Item& y) { return x.body == y.body; };
@@ -25,8 +25,8 @@ class Paused {
       bodies.motion[item.body] = Motion::kAsleep;
     }
   }
-  /// They go on as before.
-  void release(Bodies& bodies) {
+  /// Wakes the paused bodies with their stored motion.
+  void resume(Bodies& bodies) {
     for (const Item& item : items_) {
       bodies.motion[item.body] = Motion::kAwake;
       bodies.velocity[item.body] = item.velocity;

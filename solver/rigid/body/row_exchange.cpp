@@ -4,7 +4,7 @@
 
 namespace sunder::solver {
 
-void take_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W) {
+void load_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W) {
   const Mat3f& root_B = bodies.root_B[body];
   root_W = bodies.rotation_f[body] * root_B;
   const Vec3 spin_B = bodies.rotation[body].conjugate() * bodies.angular_velocity[body];
@@ -15,19 +15,19 @@ void take_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W) 
   row.position = Wide{};
 }
 
-void give_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bodies) {
+void store_velocity_of_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bodies) {
   const Wide change = row.velocity - row.start;
   bodies.velocity[body] += linear(change).cast<double>();
   bodies.angular_velocity[body] += (root_W * angular(change)).cast<double>();
 }
 
-void take_kinematic(const Bodies& bodies, const KinematicRows& to) {
-  // Of an inverse inertia that no other is as small as: hardly any angular impulse turns them, and
-  // all of their spin is seen.
+void load_kinematic_rows(const Bodies& bodies, const KinematicRows& to) {
+  // Root of an inverse inertia smaller than that of any other body: angular impulses hardly turn a
+  // kinematic body, but contacts have all of its angular velocity.
   constexpr float kKinematicRoot = 0x1p-40f;
   to.bodies.clear();
   for (const BodySlot body : bodies.slots())
-    if (bodies.carries(body)) to.bodies.push_back(body);
+    if (bodies.is_moving_kinematic(body)) to.bodies.push_back(body);
   const std::size_t count = to.bodies.size();
   to.row.assign(count == 0 ? 0 : bodies.size(), 0);
   to.rows.resize(count + bodies.size() + 1);

@@ -1,4 +1,4 @@
-// Between a body and its row.
+// Conversion between bodies and their rows.
 #pragma once
 
 #include "solver/rigid/body/bodies.h"
@@ -6,21 +6,20 @@
 
 namespace sunder::solver {
 
-/// Makes the row of a body as it lies and moves now; `root_W` becomes what turns its angular lanes
-/// into W.
-void take_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W);
-/// What has changed the row's velocity since then also changes the body's, which has not moved.
-void give_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bodies);
+/// Sets the row of a body from its state; `root_W` maps the angular lanes of the row to W.
+void load_row(const Bodies& bodies, BodySlot body, BodyRow& row, Mat3f& root_W);
+/// Adds the change of the row's velocity since the step began to the velocity of the body.
+void store_velocity_of_row(const BodyRow& row, const Mat3f& root_W, BodySlot body, Bodies& bodies);
 
-/// Where those of kinematic bodies go.
+/// Rows of kinematic bodies, to be filled.
 struct KinematicRows {
-  std::vector<BodySlot>& bodies;  ///< Those on their way.
-  ByBody<std::int32_t>& row;      ///< Of each; of others 0. Empty: there are none.
-  std::vector<BodyRow>& rows;  ///< Theirs first, from that of the last one on; then room for row 0
-                               ///< and all others.
+  std::vector<BodySlot>& bodies;  ///< Moving kinematic bodies.
+  ByBody<std::int32_t>& row;      ///< Row index by body; 0 for other bodies. Empty: no such bodies.
+  /// Rows of kinematic bodies, the last one first; then row 0 and those of all others.
+  std::vector<BodyRow>& rows;
   ByBody<Mat3f>& root_W;
 };
-/// Finds kinematic bodies on their way, and fills their rows and row 0.
-void take_kinematic(const Bodies& bodies, const KinematicRows& to);
+/// Finds the moving kinematic bodies, and fills their rows and row 0.
+void load_kinematic_rows(const Bodies& bodies, const KinematicRows& to);
 
 }  // namespace sunder::solver

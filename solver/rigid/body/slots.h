@@ -1,5 +1,5 @@
 // Slots: indices into the arrays over bodies, shapes, pairs and manifolds, each with a type of its
-// own; and vectors that only slots of their kind can index.
+// own; and vectors that only slots of their own type can index.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ using ShapeSlot = Index<struct ShapeSlotTag>;
 using PairSlot = Index<struct PairSlotTag>;
 using ManifoldSlot = Index<struct ManifoldSlotTag>;
 
-/// The first so many slots, in order.
+/// Range of the first `count` slots, in order.
 template <class Slot>
 class Slots {
  public:
@@ -63,7 +63,7 @@ template <class T>
 using ByBody = SlotVector<BodySlot, T>;
 template <class T>
 using ByShape = SlotVector<ShapeSlot, T>;
-/// What a SlotVector holds, for who neither adds nor removes.
+/// View of a SlotVector that neither adds nor removes items.
 template <class T>
 using SpanByBody = SlotSpan<BodySlot, T>;
 

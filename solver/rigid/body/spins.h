@@ -1,5 +1,5 @@
-// How the bodies of a step turn: with the angular momentum that they had and got in it, whatever
-// way they come to lie. Read first: begin() and end().
+// Rotation of bodies over a step: it keeps the angular momentum that a body had and got in the
+// step, whatever its final rotation. Read first: begin() and end().
 #pragma once
 
 #include <cstdint>
@@ -16,32 +16,32 @@ class Spins {
  public:
   void resize(std::uint32_t bodies);
 
-  /// Gives a body the angular velocity (W) that free rotation leaves it with, as the body sees it;
-  /// midway of the step, if asked.
+  /// Sets the angular velocity (W) of a body to that after free rotation, in the frame of the body;
+  /// or to the mean over the step if `midway`.
   void begin(const StepContext& step, BodySlot body, bool midway, Bodies& bodies);
-  /// Angular momentum (root space) that rows get when the step ends, by row_of().
-  Wide* owed() { return owed_.data(); }
-  /// Works out where a body ends, and the energy that this makes: a step weighs impulses by how
-  /// the body lay when it began.
+  /// Angular momentum (root space) that is added to bodies at the end of the step, by row_of().
+  Wide* pending() { return pending_.data(); }
+  /// Finds the final rotation of a body, and returns the energy in J that it gains by the rotation:
+  /// impulses are computed for the rotation at the start of the step.
   double end(const StepContext& step, BodySlot body, const BodyRow& row, const Mat3f& root_W,
              const Bodies& bodies);
-  /// Instead, so that it makes none: in a slightly other rotation, or else with its energy and not
-  /// its momentum.
+  /// Changes the final state so that no energy is gained: by a slightly different rotation, or else
+  /// by keeping the energy instead of the angular momentum.
   void keep_energy(BodySlot body, const BodyRow& row, const Mat3f& root_W, const Bodies& bodies);
-  const Turning& turning(BodySlot body) const { return spin_[body].turning; }
-  /// Whether it makes energy to end there.
-  bool makes(BodySlot body) const { return spin_[body].made_J > 0; }
+  const RotationState& state(BodySlot body) const { return spin_[body].state; }
+  /// True if the final rotation gains energy.
+  bool gains_energy(BodySlot body) const { return spin_[body].gain_J > 0; }
 
  private:
   struct Spin {
     Vec3 momentum_W;
-    Turning turning;  ///< Without impulses; in the end, with them.
-    double made_J = 0;
-    bool wobbles = false;
+    RotationState state;  ///< Free rotation; after end(), the final state.
+    double gain_J = 0;
+    bool gyroscopic = false;
   };
 
   ByBody<Spin> spin_;
-  std::vector<Wide> owed_;
+  std::vector<Wide> pending_;
 };
 
 }  // namespace sunder::solver

@@ -1,18 +1,18 @@
-// What a step is to every part of the solver.
+// Constants of a step for all parts of the solver.
 #pragma once
 
 #include <algorithm>
 
 #include "engine/base/froude.h"
 #include "engine/base/types.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 
-/// Made once before anything is found or moved, and handed down. Before the solve nobody knows into
-/// how many substeps it will be cut: what is of substeps is then as if of one.
+/// Made once before a step and passed down. The number of substeps is known only for the solve;
+/// before that, values of a substep are those of a step of one substep.
 struct StepContext {
-  /// `last_h_s`: the substep of the impulses that contacts and joints keep; 0: they keep none.
+  /// `last_h_s`: length of the substep that the stored impulses are from; 0: no impulses stored.
   StepContext(const Vec3& gravity, double dt, int parts = 1, double last_h_s = 0)
       : gravity_W(gravity),
         froude(gravity),
@@ -20,32 +20,32 @@ struct StepContext {
         substeps(parts),
         h_s(dt / parts),
         inverse_h(static_cast<float>(1 / h_s)),
-        kick_W((h_s * gravity).cast<float>()),
+        gravity_dv_W((h_s * gravity).cast<float>()),
         fall_m_s(gravity.norm() * dt),
         fall_m(static_cast<float>(fall_m_s * dt)),
-        still_m_s(froude.still_m_s(dt)) {
+        rest_speed_m_s(froude.rest_speed_m_s(dt)) {
     const double scale = last_h_s > 0 ? h_s / last_h_s : 1;
     impulse_scale = static_cast<float>(scale);
     kept_scale = static_cast<float>(1 / scale);
   }
 
-  /// Time that a body must have been at rest to fall asleep.
+  /// Time that a body must have been at rest to fall asleep, s.
   double rest_s(double reach_m) const {
-    return std::max(kRestTime * froude.time_s(reach_m), kRestSteps * dt_s);
+    return std::max(kMinRestTime * froude.time_s(reach_m), kMinRestSteps * dt_s);
   }
 
   Vec3 gravity_W;
   FroudeScale froude;
   double dt_s;
   int substeps;
-  double h_s;               ///< Of a substep.
+  double h_s;               ///< Length of a substep.
   float inverse_h;          ///< 1/s.
-  Vec3f kick_W;             ///< What gravity does to a velocity in a substep.
-  double fall_m_s;          ///< What gravity does to a speed within the step,
-  float fall_m;             ///< and to a way.
-  double still_m_s;         ///< What closes more slowly rests.
-  float impulse_scale = 1;  ///< From impulses that are kept to those of a substep,
-  float kept_scale = 1;     ///< and back.
+  Vec3f gravity_dv_W;       ///< Change of velocity by gravity in a substep.
+  double fall_m_s;          ///< Change of speed by gravity in the step.
+  float fall_m;             ///< Distance that gravity moves a body at rest in one step, g·dt².
+  double rest_speed_m_s;    ///< Closing speed below which a contact is at rest.
+  float impulse_scale = 1;  ///< Factor from stored impulses to those of a substep.
+  float kept_scale = 1;     ///< Factor from impulses of a substep to stored ones.
 };
 
 }  // namespace sunder::solver

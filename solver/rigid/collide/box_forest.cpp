@@ -1,4 +1,4 @@
-// Trees merge when what comes is no longer small beside them.
+// A tree is merged with added items when these are no longer small against it.
 #include "solver/rigid/collide/box_forest.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Boxes that stay where they are, but come and go: a few trees whose sizes grow by a factor of
-// eight, so that adding costs little more than building a tree of what is added, and removing
-// costs a path to a root (Bentley and Saxe 1980, "Decomposable Searching Problems").
+// Boxes of static shapes: a few trees whose sizes grow by a factor of eight, so that adding costs
+// little more than building a tree of the added items, and removing costs a path to a root (Bentley
+// and Saxe 1980, "Decomposable Searching Problems").
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace sunder::solver {
 
 class BoxForest {
  public:
-  /// Adds items that are not in it; `boxes` must hold those of all items.
+  /// Adds items that are not in the forest; `boxes` must have those of all items.
   void add(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items);
-  /// Takes an item out; others are not in it any more than before.
+  /// Removes an item that is in the forest.
   void remove(ShapeSlot item);
   /// Calls hit(item) for each item whose box overlaps `query`.
   template <class Hit>

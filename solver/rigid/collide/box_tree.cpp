@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "engine/base/parallel.h"
-#include "solver/base/place_order.h"
+#include "solver/base/morton_order.h"
 
 namespace sunder::solver {
 void BoxTree::build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items) {
@@ -23,7 +23,7 @@ void BoxTree::build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> i
     const FloatBox& box = boxes[items[i]];
     const Vec3f at = (0.5f * (box.min + box.max) - all.min) * scale;
     auto cell = [&](int k) { return static_cast<std::uint32_t>(at[k]); };
-    keys[i] = place_key(cell(0), cell(1), cell(2));
+    keys[i] = morton_code(cell(0), cell(1), cell(2));
   }
   sort_by_key(keys, order);
   items_.resize(items.size());
@@ -32,7 +32,7 @@ void BoxTree::build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> i
   levels_.clear();
   std::uint32_t count = static_cast<std::uint32_t>(items_.size());
   do {
-    count = wide_count(count);
+    count = lane_groups(count);
     levels_.emplace_back(count);
   } while (count > 1);
   refit(boxes);
@@ -73,8 +73,8 @@ void BoxTree::Chunk::set(std::size_t lane, const FloatBox& box) {
 }
 
 FloatBox BoxTree::Chunk::bounds() const {
-  return {{least_of(min.x), least_of(min.y), least_of(min.z)},
-          {most_of(max.x), most_of(max.y), most_of(max.z)}};
+  return {{min_lane(min.x), min_lane(min.y), min_lane(min.z)},
+          {max_lane(max.x), max_lane(max.y), max_lane(max.z)}};
 }
 
 }  // namespace sunder::solver

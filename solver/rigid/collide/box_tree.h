@@ -1,5 +1,5 @@
-// A tree of boxes with fan-out eight, implicit in memory: leaves in Morton order, each node the
-// union of eight below it. Built in one pass, tested eight boxes at a time.
+// A bounding-box tree with fan-out eight, implicit in memory: leaves in Morton order, each node the
+// union of eight nodes below it. Queries test eight boxes at a time.
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,9 @@ struct FloatBox {
 
 class BoxTree {
  public:
-  /// Sorts `items` and builds every level.
+  /// Sorts `items` and builds all levels.
   void build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items);
-  /// Takes in boxes that moved since build(); the order of the leaves stays.
+  /// Updates the boxes after items moved; the order of the leaves stays.
   void refit(const ByShape<FloatBox>& boxes);
   /// Calls hit(item) for each item whose box overlaps `query`.
   template <class Hit>
@@ -39,7 +39,7 @@ class BoxTree {
   std::size_t size() const { return items_.size(); }
   /// Items in leaf order; none where one was removed.
   std::span<const ShapeSlot> leaves() const { return items_; }
-  /// Takes a leaf out: its box is empty from now on. Not to be refitted any more.
+  /// Removes a leaf by making its box empty. The tree must not be refitted afterwards.
   void remove_leaf(std::uint32_t leaf);
 
  private:
@@ -51,8 +51,9 @@ class BoxTree {
   };
   void fit_inner_levels();
 
-  std::vector<ShapeSlot> items_;            ///< In leaf order.
-  std::vector<std::vector<Chunk>> levels_;  ///< Level 0 holds leaves; the last has one chunk.
+  std::vector<ShapeSlot> items_;  ///< In leaf order.
+  /// Level 0 has the leaves; the last level has one chunk.
+  std::vector<std::vector<Chunk>> levels_;
 };
 
 template <class Hit>

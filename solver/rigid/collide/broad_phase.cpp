@@ -6,16 +6,17 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::size_t kChunk = 512;
-constexpr std::size_t kAhead = 4;  // of hulls, memory is asked for
+constexpr std::size_t kAhead = 4;  // number of hulls to prefetch
 constexpr int kRefitsPerBuild = 12;
+constexpr std::uint64_t kPairSeed = 24;  // of the hash that chooses pairs of a dense cluster
 
-/// Bounds of a hull turned by R, about the body's centre.
+/// Returns the bounds of a hull rotated by R, about the body's centre.
 FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
   Vec3f low, high;
   for (int axis = 0; axis < 3; ++axis) {
@@ -26,7 +27,7 @@ FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
       least = min(least, along);
       most = max(most, along);
     }
-    low[axis] = least_of(least), high[axis] = most_of(most);
+    low[axis] = min_lane(least), high[axis] = max_lane(most);
   }
   return {low, high};
 }
@@ -40,8 +41,8 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
     const Vec3f center = bodies.rotation_f[body] * shape.center;
     box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
   }
-  float grow = kMargin * shape.inner_radius_m;
-  if (bodies.awake(body) || bodies.carries(body)) {
+  float grow = kBoxMargin * shape.inner_radius_m;
+  if (bodies.awake(body) || bodies.is_moving_kinematic(body)) {
     const double dt_s = step.dt_s;
     const Vec3f shift =
         (bodies.velocity[body] * dt_s + step.gravity_W * (dt_s * dt_s)).cast<float>();
@@ -55,19 +56,19 @@ FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bo
   return {at + box.min - Vec3f::Constant(grow), at + box.max + Vec3f::Constant(grow)};
 }
 
-/// Room for a few steps of the same motion.
+/// Returns a fat box, with room for a few steps of the same motion.
 FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& shape,
                   const Bodies& bodies) {
   FloatBox box = swept;
   if (!bodies.mobile(shape.body)) return box;
   const Vec3f shift = (2 * step.dt_s * bodies.velocity[shape.body]).cast<float>();
-  const Vec3f grow = Vec3f::Constant(3 * kMargin * shape.inner_radius_m);
+  const Vec3f grow = Vec3f::Constant(3 * kBoxMargin * shape.inner_radius_m);
   box.min += shift.cwiseMin(0.f) - grow;
   box.max += shift.cwiseMax(0.f) + grow;
   return box;
 }
 
-/// The pair of two shapes: a is the half-space, or the hull, or the facet, or the lesser slot.
+/// Returns the pair of two shapes, in the order of Pair.
 FoundPair pair_of(ShapeSlot s, ShapeSlot t, const Shapes& shapes) {
   const Shape &first = shapes[s], &second = shapes[t];
   const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
@@ -84,7 +85,7 @@ void BroadPhase::add(std::span<const ShapeSlot> added, const Shapes& shapes, con
   swept_.resize(shapes.size());
   fat_.resize(shapes.size());
   moved_.resize(shapes.size());
-  crowded_.resize(shapes.size());
+  has_skipped_.resize(shapes.size());
   half_space_of_.resize(shapes.size(), -1);
   for (const ShapeSlot s : added) {
     fat_[s] = FloatBox();
@@ -121,7 +122,7 @@ void BroadPhase::add_half_space(ShapeSlot s, const Shapes& shapes, const Bodies&
   half_space_of_[s] = static_cast<std::int32_t>(half_spaces_.size());
   half_spaces_.push_back({s, normal_W.cast<float>(), static_cast<float>(-normal_W.dot(point_W))});
   role_[s] = Role::kHalfSpace;
-  look_again_ = true;
+  test_all_ = true;
 }
 
 void BroadPhase::remove_half_space(ShapeSlot s) {
@@ -135,7 +136,7 @@ std::vector<ShapeBox> BroadPhase::boxes(const Shapes& shapes, const Bodies& bodi
   std::vector<ShapeBox> all;
   for (const ShapeSlot s : role_.slots()) {
     const bool has_box = role_[s] == Role::kMover || role_[s] == Role::kStatic;
-    if (!has_box || fat_[s].min.x() > fat_[s].max.x()) continue;  // not looked at since it came
+    if (!has_box || fat_[s].min.x() > fat_[s].max.x()) continue;  // not tested since it was added
     all.push_back(
         {bodies.tag[shapes[s].body], {fat_[s].min.cast<double>(), fat_[s].max.cast<double>()}});
   }
@@ -155,7 +156,7 @@ void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, con
       const ShapeSlot s = movers_[i];
       const Shape& shape = shapes.items[s];
       if (i + kAhead < end) prefetch(shapes[movers_[i + kAhead]].hull.vertices(), 4);
-      moved_[s] = look_again_ || crowded_[s];
+      moved_[s] = test_all_ || has_skipped_[s];
       if (!bodies.changed[shape.body]) continue;
       swept_[s] = swept_box(step, shape, bodies);
       if (fat_[s].contains(swept_[s])) continue;
@@ -163,7 +164,7 @@ void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, con
       moved_[s] = 1;
     }
   });
-  look_again_ = false;
+  test_all_ = false;
   for (const ShapeSlot s : movers_)
     if (moved_[s]) moved_list_.push_back(s);
   for_chunks(new_statics_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -193,7 +194,7 @@ std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, cons
   std::vector<PairSlot> slots;
   for (const ShapeSlot s : of) {
     const auto consider = [&](ShapeSlot other) {
-      if (role_[other] == Role::kAbsent) return;  // gone since the tree was built
+      if (role_[other] == Role::kAbsent) return;  // removed since the tree was built
       const PairSlot slot = contacts.slot(pair_of(s, other, shapes).key());
       if (!slot.none()) slots.push_back(slot);
     };
@@ -211,11 +212,13 @@ std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, cons
   return slots;
 }
 
-/// Of the movers that overlap a shape in a crowd, those whose middles are within it are looked at
-/// by a share only, as equal for both of a pair as their crowds are; the next update looks again.
-void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
-                          const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first) {
-  const std::uint64_t share = ~std::uint64_t{0} / neighbours * kCrowd;
+/// Leaves out most pairs of movers in a dense cluster whose centres are close: the share that is
+/// kept falls with the number of neighbours, and is alike for both shapes of a pair as far as their
+/// numbers are. The next update tests the shape again.
+void BroadPhase::drop_pairs(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
+                            const Bodies& bodies, std::vector<FoundPair>& found,
+                            std::size_t first) {
+  const std::uint64_t share = ~std::uint64_t{0} / neighbours * kMaxNeighbours;
   const auto middle = [&](const Shape& s) {
     return Vec3(bodies.position[s.body] + (bodies.rotation_f[s.body] * s.center).cast<double>());
   };
@@ -223,27 +226,27 @@ void BroadPhase::thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes&
     const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
     if (a.kind == ShapeDesc::Kind::kHalfSpace) return false;
     if (!bodies.dynamic(a.body) || !bodies.dynamic(b.body)) return false;
-    const double deep = double{(1 - kDeep) * (a.inner_radius_m + b.inner_radius_m)};
-    return combine(kCrowd, pair.key()) > share &&
+    const double deep = double{(1 - kDenseOverlap) * (a.inner_radius_m + b.inner_radius_m)};
+    return combine(kPairSeed, pair.key()) > share &&
            (middle(a) - middle(b)).squaredNorm() < deep * deep;
   };
   const auto kept =
       std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), left_out);
-  crowded_[shape] = kept != found.end();
+  has_skipped_[shape] = kept != found.end();
   found.erase(kept, found.end());
 }
 
 void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies,
                             const Contacts& contacts, std::vector<FoundPair>& found) {
-  const Shape& mine = shapes[shape];
-  const bool mover = bodies.dynamic(mine.body);
+  const Shape& own = shapes[shape];
+  const bool mover = bodies.dynamic(own.body);
   const std::size_t first = found.size();
   std::size_t neighbours = 0;
   auto consider = [&](ShapeSlot other) {
-    const Shape& theirs = shapes[other];
+    const Shape& neighbour = shapes[other];
     ++neighbours;
-    if (theirs.body == mine.body || (moved_[other] && other < shape)) return;
-    if (!mover && !bodies.dynamic(theirs.body)) return;
+    if (neighbour.body == own.body || (moved_[other] && other < shape)) return;
+    if (!mover && !bodies.dynamic(neighbour.body)) return;
     const FoundPair pair = pair_of(shape, other, shapes);
     if (contacts.slot(pair.key()).none()) found.push_back(pair);
   };
@@ -259,8 +262,8 @@ void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies&
     pair.shape_a = plane.shape, pair.shape_b = shape;
     if (overlaps(pair, fat_)) consider(plane.shape);
   }
-  crowded_[shape] = 0;
-  if (neighbours > kCrowd) thin_out(shape, neighbours, shapes, bodies, found, first);
+  has_skipped_[shape] = 0;
+  if (neighbours > kMaxNeighbours) drop_pairs(shape, neighbours, shapes, bodies, found, first);
   order();
 }
 
@@ -297,8 +300,8 @@ bool BroadPhase::overlaps(const Pair& pair, const ByShape<FloatBox>& boxes) cons
   return half.normal_W.dot(center) + half.d <= half.normal_W.cwiseAbs().dot(extent);
 }
 
-bool BroadPhase::near(const Pair& pair) const { return overlaps(pair, swept_); }
+bool BroadPhase::may_touch(const Pair& pair) const { return overlaps(pair, swept_); }
 
-bool BroadPhase::keep(const Pair& pair) const { return overlaps(pair, fat_); }
+bool BroadPhase::is_near(const Pair& pair) const { return overlaps(pair, fat_); }
 
 }  // namespace sunder::solver

@@ -1,5 +1,5 @@
-// Which shapes are near each other. Movers have a tree, statics a forest; every shape has a fat
-// box, and only shapes that leave theirs look for new neighbours.
+// Broad phase: finds pairs of near shapes. Moving shapes are in a tree, static ones in a forest.
+// Each shape has a fat box, and only a shape that leaves its fat box is tested for new neighbours.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,7 @@
 
 namespace sunder::solver {
 
-/// Two shapes that came near: as in Pair, a is the half-space, or the hull, or the facet, or the
-/// lesser slot.
+/// Two shapes that came near each other; the order of a and b is that of Pair.
 struct FoundPair {
   ShapeSlot shape_a, shape_b;
 
@@ -24,29 +23,30 @@ struct FoundPair {
 
 class BroadPhase {
  public:
-  /// Takes shapes in; they are found by the next update().
+  /// Adds shapes; the next update() finds their pairs.
   void add(std::span<const ShapeSlot> added, const Shapes& shapes, const Bodies& bodies);
-  /// The slots of all pairs that have one of these shapes, each once, ascending. To be asked before
-  /// the shapes are removed.
+  /// Returns the slots of all pairs with one of these shapes, each once, ascending. Must be called
+  /// before the shapes are removed.
   std::vector<PairSlot> pairs_with(std::span<const ShapeSlot> of, const Shapes& shapes,
                                    const Contacts& contacts) const;
-  /// Takes shapes out.
+  /// Removes shapes.
   void remove(std::span<const ShapeSlot> removed);
-  /// Boxes of what changed, swept over the step; adds pairs that came near, in the same order for
-  /// any number of threads.
+  /// Updates the boxes of changed shapes, swept over the step, and adds pairs that came near. The
+  /// order of pairs does not depend on the number of threads.
   void update(const StepContext& step, const Shapes& shapes, const Bodies& bodies,
               Contacts& contacts);
-  /// Shapes that the last update() looked for neighbours of.
+  /// Number of shapes that the last update() tested for neighbours.
   std::size_t moved() const { return moved_list_.size(); }
-  /// Whether the pair's shapes may touch within the step.
-  bool near(const Pair& pair) const;
-  /// Whether the pair is worth keeping: one that is not cannot be found by its shapes any more.
-  bool keep(const Pair& pair) const;
-  /// Whether it ceased to be so in this update.
-  bool strayed(const Pair& pair) const {
-    return (moved_[pair.shape_a] || moved_[pair.shape_b]) && !keep(pair);
+  /// True if the pair's shapes may touch within the step.
+  bool may_touch(const Pair& pair) const;
+  /// Returns false if the fat boxes no longer overlap; such a pair must be removed, as pairs_with()
+  /// cannot find it.
+  bool is_near(const Pair& pair) const;
+  /// True if the fat boxes ceased to overlap in this update.
+  bool left_fat_box(const Pair& pair) const {
+    return (moved_[pair.shape_a] || moved_[pair.shape_b]) && !is_near(pair);
   }
-  /// The fat boxes of shapes that have one, in order of slots.
+  /// Returns the fat boxes of all shapes that have one, in order of slots.
   std::vector<ShapeBox> boxes(const Shapes& shapes, const Bodies& bodies) const;
 
  private:
@@ -62,22 +62,23 @@ class BroadPhase {
   void update_trees();
   void find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies,
                   const Contacts& contacts, std::vector<FoundPair>& found);
-  void thin_out(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes, const Bodies& bodies,
-                std::vector<FoundPair>& found, std::size_t first);
+  void drop_pairs(ShapeSlot shape, std::size_t neighbours, const Shapes& shapes,
+                  const Bodies& bodies, std::vector<FoundPair>& found, std::size_t first);
   bool overlaps(const Pair& pair, const ByShape<FloatBox>& boxes) const;
 
   ByShape<Role> role_;
   ByShape<FloatBox> swept_, fat_;
-  ByShape<std::uint8_t> moved_;    ///< Left its fat box in this update.
-  ByShape<std::uint8_t> crowded_;  ///< Has neighbours that were not looked at.
+  ByShape<std::uint8_t> moved_;        ///< 1: left its fat box in this update.
+  ByShape<std::uint8_t> has_skipped_;  ///< 1: some neighbours were skipped.
   std::vector<ShapeSlot> movers_, new_statics_, moved_list_;
   std::vector<std::vector<FoundPair>> found_;  ///< By chunk of moved shapes.
   std::vector<HalfSpace> half_spaces_;
-  ByShape<std::int32_t> half_space_of_;  ///< −1: not one.
+  ByShape<std::int32_t> half_space_of_;  ///< Index in `half_spaces_`; −1: not a half-space.
   BoxTree mover_tree_;
   BoxForest static_forest_;
   bool movers_changed_ = true;
-  bool look_again_ = false;  ///< A half-space came: it has no box that others would find.
+  /// A half-space was added: all movers are tested, since it has no box.
+  bool test_all_ = false;
   int refits_ = 0;
 };
 

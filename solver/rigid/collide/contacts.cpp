@@ -1,4 +1,4 @@
-// Pairs and manifolds come and go; the colours of manifolds.
+// Adds and removes pairs and manifolds, and colours manifolds.
 #include "solver/rigid/collide/contacts.h"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ Slot put(const Item& item, std::vector<Slot>& free_slots, SlotVector<Slot, Item>
   return slot;
 }
 
-/// Room for `more` items. By doubling at least, or many small steps would copy all again and again.
+/// Reserves memory for `more` items; at least doubles it, or many small steps would copy all items
+/// each time.
 template <class Item>
 void make_room(std::size_t more, std::size_t free_slots, std::vector<Item>& items) {
   if (more <= free_slots || items.size() + more - free_slots <= items.capacity()) return;
@@ -42,13 +43,13 @@ void Contacts::expect_manifolds(std::size_t more) {
 }
 
 void Contacts::remove(PairSlot slot) {
-  if (pairs[slot].touching()) part(slot);
+  if (pairs[slot].touching()) remove_manifold(slot);
   slot_of.erase(pairs[slot].key());
   pairs[slot] = Pair();
   free_pairs.push_back(slot);
 }
 
-void Contacts::touch(PairSlot pair, const Manifold& manifold, const Bodies& bodies) {
+void Contacts::add_manifold(PairSlot pair, const Manifold& manifold, const Bodies& bodies) {
   const ManifoldSlot slot = put(manifold, free_manifolds, manifolds);
   Manifold& m = manifolds[slot];
   m.pair = pair;
@@ -64,7 +65,7 @@ void Contacts::touch(PairSlot pair, const Manifold& manifold, const Bodies& bodi
   if (b) body_colors[m.body_b] |= std::uint64_t{1} << m.color;
 }
 
-void Contacts::part(PairSlot pair) {
+void Contacts::remove_manifold(PairSlot pair) {
   const ManifoldSlot slot = pairs[pair].manifold;
   Manifold& m = manifolds[slot];
   if (m.color < kMaxColors) {

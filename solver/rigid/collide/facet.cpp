@@ -3,8 +3,9 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kSame = 1e-4f;       // of directions: between triangles in one plane
-constexpr std::uint32_t kSides = 3;  // whose faces follow the front; then comes the back
+constexpr float kDirectionRounding = 1e-4f;  // between triangles in one plane
+// number of side faces, which follow the front; the back is last
+constexpr std::uint32_t kSides = 3;
 
 }  // namespace
 
@@ -12,10 +13,10 @@ SeparatingAxis front_axis(const Hull& facet, float separation_m) {
   return {SeparatingAxis::Kind::kFaceA, facet.normal(0), separation_m, 0, 0};
 }
 
-/// The edge that it leans over most decides.
+/// Tests the edge that the direction leans over most.
 bool normal_to_surface(const Shape& facet, const Vec3f& normal_A) {
   const float up = facet.hull.normal(0).dot(normal_A);
-  if (up < -kSame) return false;
+  if (up < -kDirectionRounding) return false;
   std::uint32_t side = 0;
   float most = -1;
   for (std::uint32_t i = 0; i < kSides; ++i) {
@@ -23,7 +24,7 @@ bool normal_to_surface(const Shape& facet, const Vec3f& normal_A) {
     if (over > most) most = over, side = i;
   }
   const Eigen::Vector2f& bend = facet.bends[side];
-  return bend.x() * most - bend.y() * up <= kSame;
+  return bend.x() * most - bend.y() * up <= kDirectionRounding;
 }
 
 bool before_back(const Hull& facet, const Vec3f& point_A) {

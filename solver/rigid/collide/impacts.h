@@ -1,5 +1,5 @@
-// Where bodies meet so fast that a step is long for it: what touches, near there, has to pass the
-// impact on within the substep (docs/decisions/036).
+// Impacts: bodies that close so fast that a step is long for their contact. The contacts near an
+// impact propagate it within the substep (docs/decisions/036).
 #pragma once
 
 #include <cstdint>
@@ -10,30 +10,31 @@
 
 namespace sunder::solver {
 
-/// What closes no faster in a step is no impact: its overlaps are small against it, or gravity
-/// alone may have made it so fast.
+/// Returns the minimum closing speed of an impact: at a lower one the overlaps of a step are small,
+/// or gravity alone may have caused the speed.
 double least_impact_m_s(const StepContext& step, const Manifold& m);
 
 class Impacts {
  public:
-  void clear() { steps_.clear(); }
-  /// Finds them among what touches, and what is near.
+  void clear() { distance_.clear(); }
+  /// Finds the impacts among awake contacts, and the bodies near them.
   void find(const StepContext& step, const Bodies& bodies, const Contacts& contacts);
-  bool empty() const { return steps_.empty(); }
-  /// Whether a manifold of awake bodies has to pass an impact on.
-  bool near(const Manifold& m) const {
+  bool empty() const { return distance_.empty(); }
+  /// True if a manifold of awake bodies propagates an impact.
+  bool propagates(const Manifold& m) const {
     return !empty() && (is_near(m.body_a) || is_near(m.body_b));
   }
-  /// Bodies that manifolds near an impact move.
-  bool moves(BodySlot body) const { return !empty() && steps_[body] <= kReach; }
+  /// True if manifolds near an impact can move the body.
+  bool may_move(BodySlot body) const { return !empty() && distance_[body] <= kMaxDistance; }
 
  private:
-  static constexpr std::uint8_t kReach = 4;  ///< From body to body.
+  static constexpr std::uint8_t kMaxDistance = 4;  ///< Number of contacts from a struck body.
   static constexpr std::uint8_t kUnreached = 255;
 
-  bool is_near(BodySlot body) const { return steps_[body] < kReach; }
+  bool is_near(BodySlot body) const { return distance_[body] < kMaxDistance; }
 
-  ByBody<std::uint8_t> steps_;  ///< From a body that is struck. Empty: none is.
+  /// Number of contacts from a struck body; empty: there is no impact.
+  ByBody<std::uint8_t> distance_;
 };
 
 }  // namespace sunder::solver

@@ -1,10 +1,10 @@
-// Building, matching and refreshing of manifolds.
+// Builds, matches and updates manifolds.
 #include "solver/rigid/collide/manifold_build.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -13,9 +13,9 @@ Quatf relative_rotation(const Manifold& m, const Bodies& bodies) {
   return (bodies.rotation[m.body_a].conjugate() * bodies.rotation[m.body_b]).cast<float>();
 }
 
-/// Hands impulses of old points to new ones: by feature, else to the nearest not yet served. The
-/// same feature rests where it did, or what slides would sink in whenever its points are found
-/// anew.
+/// Copies impulses of old points to new ones: to the same feature, else to the nearest point
+/// without one. The same feature keeps its rest separation, or a sliding body would sink in each
+/// time its points are built.
 void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
                       std::span<ManifoldPoint> points) {
   std::uint32_t taken = 0, served = 0;
@@ -28,7 +28,7 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
       break;
     }
   }
-  const float limit = kFar * size_m;
+  const float limit = kPointMatchDistance * size_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (served >> i & 1) continue;
     float nearest = limit * limit;
@@ -43,10 +43,10 @@ void inherit_impulses(std::span<const ManifoldPoint> old, float size_m,
   }
 }
 
-/// Adds old points that still are near, and not where the manifold has one.
+/// Adds old points that are still near, unless the manifold has a point there.
 void keep_points(std::span<const ManifoldPoint> old, const PairMotion& motion,
                  const Vec3f& normal_A, float reach_m, Manifold& m) {
-  const float slide_m = kMargin * m.size_m, apart_m = 2 * slide_m;
+  const float slide_m = kKeptPointSlide * m.size_m, apart_m = 2 * slide_m;
   for (const ManifoldPoint& was : old) {
     if (m.count == m.points.size()) return;
     const Vec3f gap = motion.pose.R * was.anchor_B + motion.pose.p - was.anchor_A;
@@ -66,7 +66,7 @@ void keep_points(std::span<const ManifoldPoint> old, const PairMotion& motion,
   }
 }
 
-/// Points as they lie in the world, and friction at their middle.
+/// Computes lever arms from anchors, and puts friction at the mean of the points.
 void place_points(const Mat3f& R_WA, const Mat3f& R_WB, Manifold& m) {
   m.friction_anchor_A.setZero(), m.friction_anchor_B.setZero();
   for (std::size_t i = 0; i < m.count; ++i) {
@@ -121,7 +121,8 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
     return;
   }
   const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
-  if (kKeeps && points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
+  if (kKeepsPoints && points.size() == 1 && m.reusable)
+    keep_points(before, motion, normal_A, reach_m, m);
   place_points(R_WA, R_WB, m);
   m.drift_W.setZero();
   m.sticking = true;
@@ -129,10 +130,10 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
 }
 
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion) {
-  const float limit = kReuse * m.size_m;
+  const float limit = kMaxReuseMotion * m.size_m;
   if ((motion.pose.p - m.built_position).squaredNorm() > limit * limit) return false;
   const Quatf rotation = m.built_rotation.conjugate() * relative_rotation(m, bodies);
-  const float half_angle = kReuse / 6;
+  const float half_angle = kMaxReuseMotion / 6;
   return rotation.vec().squaredNorm() < half_angle * half_angle;
 }
 

@@ -1,4 +1,4 @@
-// From contact points to a manifold, and carrying a manifold along while its pair barely moves.
+// Builds a manifold from contact points, and updates it while its pair barely moves.
 #pragma once
 
 #include <span>
@@ -9,24 +9,24 @@
 
 namespace sunder::solver {
 
-/// How two bodies lie and move relative to each other; float, so exact near each other only.
+/// Relative pose and motion of two bodies; float, so exact only where they are near each other.
 struct PairMotion {
-  Vec3f offset_W;    ///< Centre of b from centre of a.
-  Vec3f velocity_W;  ///< Of b's centre, seen from a's.
+  Vec3f offset_W;    ///< Centre of b minus centre of a.
+  Vec3f velocity_W;  ///< Velocity of b's centre minus that of a's.
   RelativePose pose;
 };
 PairMotion pair_motion(const Pair& pair, const Bodies& bodies);
 
-/// Fills `m` from `points` (in A, at `pose` shifted by `shift_W` from now), keeping impulses of
-/// points that were there before. Beside a single point, as a pair of edges has, one or two that
-/// were there stay while they are within `reach_m`: a piece that rocks on two edges touches each in
-/// turn, and would tip onto the one that it just left.
+/// Sets `m` from `points` (in A, at `pose` shifted by `shift_W` from now), and keeps the impulses
+/// of points that it had before. If there is one point, as of a pair of edges, up to two old ones
+/// within `reach_m` are kept: a piece that rocks on two edges touches each in turn, and would tip
+/// onto the edge that it just left.
 void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& motion,
                     const Vec3f& normal_A, std::span<const PatchPoint> points, const Vec3f& shift_W,
                     float reach_m, Manifold& m);
-/// Whether the pair has barely moved since the points were made.
+/// True if the pair has barely moved since the points were built.
 bool barely_moved(const Manifold& m, const Bodies& bodies, const PairMotion& motion);
-/// Points, normal and drift at today's poses.
+/// Updates points, normal and friction drift to the current poses.
 void refresh_manifold(const Bodies& bodies, const PairMotion& motion, Manifold& m);
 
 }  // namespace sunder::solver

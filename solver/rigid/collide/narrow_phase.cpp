@@ -1,4 +1,4 @@
-// Dispatch over shape kinds, reuse, and time of impact.
+// Collision of each pair of shape kinds, reuse of manifolds, and time of impact.
 #include "solver/rigid/collide/narrow_phase.h"
 
 #include <algorithm>
@@ -7,18 +7,18 @@
 
 #include "solver/base/prefetch.h"
 #include "solver/rigid/collide/facet.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr float kRounding = 5e-7f;  // of a length in floats
-constexpr float kNoPoint = -1e30f;  // a reach within which nothing is
+constexpr float kRounding = 5e-7f;  // relative error of a length in floats
+constexpr float kNoPoint = -1e30f;  // a reach that no point is within
 constexpr int kImpactRounds = 24;
 
 using Kind = ShapeDesc::Kind;
 
-/// Two shapes at a relative pose that may be moved along.
+/// Two shapes to be tested at several relative poses.
 struct Probe {
   const Shape& a;
   const Shape& b;
@@ -28,7 +28,8 @@ struct Probe {
   SeparatingAxis axis(const RelativePose& pose, const AxisReach& reach) const {
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       place_in_each_other(a.hull, b.hull, pose, scratch.hulls);
-      return separating_axis(a.hull, b.hull, pose, reach, 0.5f * kLayer * size_m, scratch.hulls);
+      return separating_axis(a.hull, b.hull, pose, reach, 0.5f * kAxisPreference * size_m,
+                             scratch.hulls);
     }
     const Vec3f center_b = pose.R * b.center + pose.p;
     SeparatingAxis axis;
@@ -44,14 +45,14 @@ struct Probe {
     return axis;
   }
 
-  /// The axis along which hulls that touch slide past each other, if they do, and if they would
-  /// meet along the best.
+  /// Returns the axis along which hulls in contact slide past each other, if there is one and they
+  /// would collide along the best axis.
   std::optional<SeparatingAxis> passing(const RelativePose& pose, const SeparatingAxis& best,
-                                        const Vec3f& way_A) const {
+                                        const Vec3f& displacement_A) const {
     if (a.kind != Kind::kHull || b.kind != Kind::kHull) return {};
-    const float tolerance_m = kMargin * size_m;
-    if (best.separation_m + best.normal_A.dot(way_A) >= -tolerance_m) return {};
-    return passing_axis(a.hull, b.hull, pose, way_A, tolerance_m, scratch.hulls);
+    const float tolerance_m = kPassingOverlap * size_m;
+    if (best.separation_m + best.normal_A.dot(displacement_A) >= -tolerance_m) return {};
+    return passing_axis(a.hull, b.hull, pose, displacement_A, tolerance_m, scratch.hulls);
   }
 
   void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
@@ -68,9 +69,9 @@ struct Probe {
   }
 };
 
-/// Time until the shapes come within `target_m`, moving straight; negative: not within dt_s.
-/// Advancing by the gap along a separating axis never oversteps. `axis`: the best at the start, and
-/// at that time in the end.
+/// Returns the time until the shapes, moving straight, come within `target_m`; negative: not within
+/// dt_s. Conservative advancement: a step by the gap along a separating axis never overshoots.
+/// `axis` is the best axis at the start, and at the returned time.
 float time_of_impact(const Probe& probe, const RelativePose& start, const Vec3f& velocity_A,
                      float target_m, float dt_s, SeparatingAxis& axis) {
   RelativePose pose = start;
@@ -87,11 +88,11 @@ float time_of_impact(const Probe& probe, const RelativePose& start, const Vec3f&
 }
 
 struct Reach {
-  float margin_m;  ///< Always.
-  float spin_m;    ///< What turning may add within the step.
-  float way_m;     ///< What moving may add within the step.
+  float margin_m;        ///< Margin at any motion.
+  float spin_m;          ///< Maximum motion by rotation within the step.
+  float displacement_m;  ///< Maximum motion by translation within the step.
 
-  float all_m() const { return margin_m + spin_m + way_m; }
+  float all_m() const { return margin_m + spin_m + displacement_m; }
 };
 
 void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
@@ -112,7 +113,7 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
   };
   if (b.kind == Kind::kHull) {
     for (std::uint32_t v = 0; v < b.hull.vertex_count(); ++v) add(b.hull.vertex(v), v);
-    reduce_patch(a.normal, kLayer * m.size_m + reach.spin_m, points);
+    reduce_patch(a.normal, kDepthTolerance * m.size_m + reach.spin_m, points);
   } else {
     add(b.center - b.radius_m * normal_B, 0);
   }
@@ -126,21 +127,21 @@ Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& b
     const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
     return std::min(1.f, spin * dt) * reach_m;
   };
-  return {kMargin * size_m + step.fall_m,
+  return {kContactMargin * size_m + step.fall_m,
           spin_reach(pair.body_a, a.reach_m) + spin_reach(pair.body_b, b.reach_m),
           dt * motion.velocity_W.norm()};
 }
 
-/// How two shapes meet.
-struct Meeting {
+/// Axis and time of a collision.
+struct Collision {
   SeparatingAxis axis;
-  float time_s = 0;  ///< Of the impact, if they are looked at there; negative: there is none.
+  float time_s = 0;  ///< Time of impact, if the shapes are tested there; negative: none.
 };
 
-/// Where a facet is met, if it is where its surface goes on: by its front, as the plane that it is,
-/// so that edges within the surface are none. What is behind its back is let be.
-Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
-                   const Vec3f& velocity_A, float margin_m, float dt_s) {
+/// Returns the collision with the front of a facet as a plane, for use where its surface continues:
+/// edges within the surface then have no effect. Shapes behind the back do not collide.
+Collision collide_with_front(const Shape& a, const Shape& b, const RelativePose& start,
+                             const Vec3f& velocity_A, float margin_m, float dt_s) {
   const Vec3f center_A = start.R * b.center + start.p;
   if (!before_back(a.hull, center_A)) return {{}, -1};
   const Vec3f normal = a.hull.normal(0);
@@ -148,18 +149,18 @@ Meeting meet_front(const Shape& a, const Shape& b, const RelativePose& start,
                                  ? separation_along(normal, a.hull, b.hull, start)
                                  : normal.dot(center_A) + a.hull.plane_d(0) - b.radius_m;
   const float closing = -normal.dot(velocity_A);
-  Meeting meeting{front_axis(a.hull, separation_m)};
-  if (separation_m <= margin_m) return meeting;
-  meeting.time_s = closing > 0 ? (separation_m - 0.5f * margin_m) / closing : dt_s;
-  if (!(meeting.time_s < dt_s)) return {{}, -1};
-  meeting.axis.separation_m -= meeting.time_s * closing;
-  return meeting;
+  Collision collision{front_axis(a.hull, separation_m)};
+  if (separation_m <= margin_m) return collision;
+  collision.time_s = closing > 0 ? (separation_m - 0.5f * margin_m) / closing : dt_s;
+  if (!(collision.time_s < dt_s)) return {{}, -1};
+  collision.axis.separation_m -= collision.time_s * closing;
+  return collision;
 }
 
-/// Of the points where something meets a facet's front, those that are on it. What is fast may be
-/// led onto it within the step, by a neighbour that it touches first.
+/// Keeps those points against a facet's front that are on the facet. A fast shape may slide onto it
+/// within the step, over a neighbour that it touches first.
 void keep_on_front(const Shape& facet, float size_m, bool fast, std::vector<PatchPoint>& points) {
-  const float tolerance_m = kSliver * size_m, deepest_m = -depth_m(facet.hull);
+  const float tolerance_m = kFacetTolerance * size_m, deepest_m = -depth_m(facet.hull);
   std::erase_if(points, [&](const PatchPoint& point) {
     return point.separation_m < deepest_m || !over_triangle(facet, point.on_a, tolerance_m, fast);
   });
@@ -175,29 +176,29 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   RelativePose pose = motion.pose;
   SeparatingAxis axis = probe.axis(pose, axis_reach);
   float time = 0;
-  const bool meet = axis.separation_m <= axis_reach.along(axis.normal_A);
-  // The normal of balls is another wherever they meet.
-  const float far = b.kind == Kind::kSphere ? kReuse : kFar;
-  const bool fast = kLooksAhead && meet && reach.way_m > far * m.size_m;
+  const bool may_touch = axis.separation_m <= axis_reach.along(axis.normal_A);
+  // The normal of balls depends on where they touch.
+  const float casting_motion = b.kind == Kind::kSphere ? kBallCastingMotion : kCastingMotion;
+  const bool fast = kCastsPairs && may_touch && reach.displacement_m > casting_motion * m.size_m;
   const std::optional<SeparatingAxis> passing =
       fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
   if (passing) {
     axis = *passing;
   } else if (fast) {
-    axis_reach.way_A.setZero();
+    axis_reach.displacement_A.setZero();
     time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
     pose.p += std::max(0.f, time) * velocity_A;
-    if (time > 0 && b.kind == Kind::kSphere) {  // its normal turns until they touch
+    if (time > 0 && b.kind == Kind::kSphere) {  // the normal turns until they touch
       SeparatingAxis touching = axis;
-      const float target_m = kSliver * m.size_m;
+      const float target_m = kBallImpactGap * m.size_m;
       const float more = time_of_impact(probe, pose, velocity_A, target_m, dt - time, touching);
       if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
     }
   }
-  const bool by_front = meet && a.facet && time >= 0 && !normal_to_surface(a, axis.normal_A);
+  const bool by_front = may_touch && a.facet && time >= 0 && !normal_to_surface(a, axis.normal_A);
   if (by_front) {
-    const Meeting front =
-        meet_front(a, b, motion.pose, velocity_A, reach.margin_m + reach.spin_m, dt);
+    const Collision front =
+        collide_with_front(a, b, motion.pose, velocity_A, reach.margin_m + reach.spin_m, dt);
     axis = front.axis, time = front.time_s;
     pose.p = motion.pose.p + std::max(0.f, time) * velocity_A;
     if (time >= 0 && b.kind == Kind::kHull) place_in_A(b.hull, pose, scratch.hulls);
@@ -205,22 +206,22 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   const float limit = axis_reach.along(axis.normal_A);
   scratch.points.clear();
   if (time >= 0 && axis.separation_m <= limit) {
-    probe.points(pose, axis, limit, kLayer * m.size_m + reach.spin_m);
+    probe.points(pose, axis, limit, kDepthTolerance * m.size_m + reach.spin_m);
     if (by_front) keep_on_front(a, m.size_m, time > 0, scratch.points);
   }
   pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
   pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
   m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
-  m.round = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
-  build_manifold(pair, bodies, motion, axis.normal_A, scratch.points,
-                 std::max(0.f, time) * motion.velocity_W,
-                 reach.spin_m + reach.way_m < 0.5f * kFar * m.size_m ? limit : kNoPoint, m);
+  m.is_ball_pair = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
+  build_manifold(
+      pair, bodies, motion, axis.normal_A, scratch.points, std::max(0.f, time) * motion.velocity_W,
+      reach.spin_m + reach.displacement_m < kKeptPointMotion * m.size_m ? limit : kNoPoint, m);
 }
 
-/// Whether the axis that parted the pair last still does, and by how much.
-bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, const AxisReach& reach,
-                  Pair& pair) {
+/// True if the last separating axis of the pair still separates it; sets the clearance.
+bool still_separated(const Shape& a, const Shape& b, const PairMotion& motion,
+                     const AxisReach& reach, Pair& pair) {
   if (pair.axis_A.isZero(0) || b.kind != Kind::kHull || a.kind != Kind::kHull) return false;
   const float separation_m = separation_along(pair.axis_A, a.hull, b.hull, motion.pose);
   if (separation_m <= reach.along(pair.axis_A)) return false;
@@ -228,12 +229,13 @@ bool still_parted(const Shape& a, const Shape& b, const PairMotion& motion, cons
   return true;
 }
 
-/// Whether the pair is new, hardly moves and touches at an edge only, as most neighbours in a grid
-/// do: no contact until it has moved by a sliver.
+/// True if the pair is new, hardly moves and touches only at an edge, as most neighbours in a grid
+/// do: it gets no contact until it has moved by kEdgeOverlap.
 bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, const Reach& reach,
                    float size_m, Pair& pair, NarrowScratch& scratch) {
-  const float sliver_m = kSliver * size_m;
-  if (a.kind != Kind::kHull || b.kind != Kind::kHull || reach.spin_m + reach.way_m > sliver_m)
+  const float sliver_m = kEdgeOverlap * size_m;
+  if (a.kind != Kind::kHull || b.kind != Kind::kHull ||
+      reach.spin_m + reach.displacement_m > sliver_m)
     return false;
   place_in_each_other(a.hull, b.hull, motion.pose, scratch.hulls);
   if (!touch_without_area(a.hull, b.hull, motion.pose, sliver_m, scratch.hulls)) return false;
@@ -246,17 +248,18 @@ bool edges_at_rest(const Shape& a, const Shape& b, const PairMotion& motion, con
 
 bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, const Pair& pair,
                     const Manifold* m) {
-  if (pair.fresh || (m && !(m->reusable && m->sticking)) || (!m && pair.clearance_m < 0))
+  if (pair.needs_test || (m && !(m->reusable && m->sticking)) || (!m && pair.clearance_m < 0))
     return false;
   const BodySlot a = pair.body_a, b = pair.body_b;
   const Vec3f offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
   const auto turned_m = static_cast<float>(bodies.turned_m[a] + bodies.turned_m[b] - pair.turned_m);
   const float moved_m = (offset_W - pair.offset_W).norm() + turned_m;
-  if (m) return moved_m < kStill * m->size_m;
-  const Vec3f way_W = reach[b].way_W - reach[a].way_W;
-  const float closing_m = pair.axis_A.isZero(0)
-                              ? way_W.norm()
-                              : std::max(0.f, -way_W.dot(bodies.rotation_f[a] * pair.axis_A));
+  if (m) return moved_m < kStillMotion * m->size_m;
+  const Vec3f displacement_W = reach[b].displacement_W - reach[a].displacement_W;
+  const float closing_m =
+      pair.axis_A.isZero(0)
+          ? displacement_W.norm()
+          : std::max(0.f, -displacement_W.dot(bodies.rotation_f[a] * pair.axis_A));
   const float blur_m = kRounding * offset_W.norm();
   return pair.clearance_m - moved_m - blur_m >
          pair.margin_m + closing_m + reach[a].spin_m + reach[b].spin_m;
@@ -264,7 +267,7 @@ bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, con
 
 void prefetch_pairs(PairSlot at, PairSlot end, const Contacts& contacts, const Shapes& shapes,
                     const Bodies& bodies) {
-  constexpr std::uint32_t kFirst = 8, kThen = 3;  // pairs ahead
+  constexpr std::uint32_t kFirst = 8, kThen = 3;  // number of pairs ahead
   const auto ahead = [&](std::uint32_t by) -> const Pair* {
     if (at.value + by >= end.value) return nullptr;
     const Pair& pair = contacts.pairs[PairSlot(at.value + by)];
@@ -284,7 +287,7 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
                     Manifold& m, NarrowScratch& scratch) {
   const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
   const PairMotion motion = pair_motion(pair, bodies);
-  // Facets may be slivers, yet are as large as the surface that they are part of.
+  // A facet may be a sliver, but counts as large as its surface.
   const float size_m = a.facet ? b.inner_radius_m : std::min(a.inner_radius_m, b.inner_radius_m);
   pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
   pair.offset_W = motion.offset_W;
@@ -294,10 +297,10 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
   }
   const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
   pair.margin_m = reach.margin_m;
-  const Vec3f way_A = static_cast<float>(step.dt_s) *
-                      (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
-  const AxisReach axis_reach{reach.margin_m + reach.spin_m, way_A};
-  if (m.count == 0 && still_parted(a, b, motion, axis_reach, pair)) return;
+  const Vec3f displacement_A = static_cast<float>(step.dt_s) *
+                               (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
+  const AxisReach axis_reach{reach.margin_m + reach.spin_m, displacement_A};
+  if (m.count == 0 && still_separated(a, b, motion, axis_reach, pair)) return;
   if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;
   m.friction = std::sqrt(a.friction * b.friction);

@@ -1,4 +1,4 @@
-// What two near shapes do: nothing, touch, or will touch within the step.
+// Tests two near shapes: they are apart, touch, or will touch within the step.
 #pragma once
 
 #include <span>
@@ -17,30 +17,30 @@ struct NarrowScratch {
   std::vector<PatchPoint> points;
 };
 
-/// How far a body may come within the step.
+/// Motion of a body within the step.
 struct StepReach {
-  Vec3f way_W;
-  float spin_m;  ///< Of any of its points about its centre.
+  Vec3f displacement_W;
+  float spin_m;  ///< Upper bound on the motion of its points about its centre.
 };
 
-/// Whether a pair needs no look: it touches (`m` is given) and its bodies have not moved against
-/// each other since the last one, or it is too far apart to touch within the step.
+/// True if a pair needs no test: it touches (`m` is given) and its bodies have not moved against
+/// each other since the last test, or it is too far apart to touch within the step.
 bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, const Pair& pair,
                     const Manifold* m);
 
-/// Asks for the memory of pairs that are looked at soon after `at`: of what a look reads first and,
-/// nearer by, of hulls.
+/// Prefetches memory of the pairs that are tested soon after `at`: first pairs, manifolds and
+/// shapes, then hulls.
 void prefetch_pairs(PairSlot at, PairSlot end, const Contacts& contacts, const Shapes& shapes,
                     const Bodies& bodies);
 
-/// Brings the manifold of a pair up to date: carried along while the pair barely moves, otherwise
-/// made anew. Pairs that close fast are moved to the time of impact first, so that the normal is
-/// that of the feature that will be hit.
+/// Updates the manifold of a pair: keeps its points while the pair barely moves, else builds it
+/// again. Fast pairs are first cast to their time of impact, so that the normal is that of the
+/// feature that will be hit.
 void update_contact(const StepContext& step, const Shapes& shapes, const Bodies& bodies, Pair& pair,
                     Manifold& m, NarrowScratch& scratch);
 
-/// The point of the hull's surface closest to `point` (hull frame): `normal` away from the hull,
-/// the distance negative inside.
+/// Point of a hull's surface closest to a point, by its distance (negative inside) and the normal
+/// away from the hull, in the hull's frame.
 struct HullDistance {
   Vec3f normal = Vec3f::UnitY();
   float distance_m = 0;

@@ -8,7 +8,7 @@
 namespace sunder::solver {
 namespace {
 
-/// The face of `hull` that faces most against `direction` (in the hull's frame).
+/// Returns the face of `hull` whose normal is most opposed to `direction` (in the hull's frame).
 std::uint32_t incident_face(const Hull& hull, const Vec3f& direction) {
   const auto along = [&](const Hull::PlaneChunk& planes) {
     const Wide3& n = planes.normal;
@@ -16,11 +16,11 @@ std::uint32_t incident_face(const Hull& hull, const Vec3f& direction) {
   };
   Wide least = splat(1e30f);
   for (const Hull::PlaneChunk& planes : hull.planes()) least = min(least, along(planes));
-  const Wide best = splat(least_of(least));
+  const Wide best = splat(min_lane(least));
   for (std::uint32_t c = 0; c < hull.planes().size(); ++c)
     if (const std::uint32_t set = bits(along(hull.planes()[c]) == best))
       return c * kLanes + static_cast<std::uint32_t>(__builtin_ctz(set));
-  return 0;  // of what is not a number
+  return 0;  // if `direction` is not finite
 }
 
 /// Keeps the part of the polygon with side·(x − origin) <= 0.
@@ -57,7 +57,7 @@ void face_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
   const bool on_a = axis.kind == SeparatingAxis::Kind::kFaceA;
   const Hull &reference = on_a ? a : b, &incident = on_a ? b : a;
   const std::uint32_t face = on_a ? axis.index_a : axis.index_b;
-  const Vec3f normal = on_a ? axis.normal_A : Vec3f(-axis.normal_A);  // out of the reference
+  const Vec3f normal = on_a ? axis.normal_A : Vec3f(-axis.normal_A);  // away from the reference
   const std::uint32_t other =
       incident_face(incident, on_a ? Vec3f(pose.R.transpose() * normal) : normal);
   auto position = [&](bool of_a, std::uint32_t v) {
@@ -86,7 +86,7 @@ void face_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
   }
 }
 
-/// The closest points of two edges' lines.
+/// Returns the closest points of the lines of two edges.
 PatchPoint edge_point(const Hull& a, const Hull& b, const SeparatingAxis& axis,
                       const HullScratch& hulls) {
   const auto [a0, a1] = a.edge_vertices(axis.index_a);
@@ -98,12 +98,13 @@ PatchPoint edge_point(const Hull& a, const Hull& b, const SeparatingAxis& axis,
   const float det = aa * bb - ab * ab;
   const float s = det > 0 ? (gap.dot(da) * bb - gap.dot(db) * ab) / det : 0.5f;
   const Vec3f on_a = pa + std::clamp(s, 0.f, 1.f) * da;
-  const float t = bb > 0 ? (on_a - pb).dot(db) / bb : 0.f;  // slivers have edges of no length
+  // degenerate hulls have edges of no length
+  const float t = bb > 0 ? (on_a - pb).dot(db) / bb : 0.f;
   const Vec3f on_b = pb + std::clamp(t, 0.f, 1.f) * db;
   return {on_a, on_b, axis.separation_m, 1u << 30 | axis.index_a << 15 | axis.index_b};
 }
 
-/// The vertex deepest behind the reference face: for overlaps whose clipped patch came out empty.
+/// Returns the vertex deepest behind the reference face; for overlaps whose clipped patch is empty.
 PatchPoint deepest_point(const Hull& a, const Hull& b, const SeparatingAxis& axis,
                          const HullScratch& hulls) {
   const bool on_a = axis.kind == SeparatingAxis::Kind::kFaceA;
@@ -121,7 +122,7 @@ PatchPoint deepest_point(const Hull& a, const Hull& b, const SeparatingAxis& axi
 }
 
 void drop_high(float layer_m, std::vector<PatchPoint>& points) {
-  std::array<float, 4> low;  // the least separations, ascending
+  std::array<float, 4> low;  // the four least separations, ascending
   low.fill(1e30f);
   for (const PatchPoint& p : points) {
     if (p.separation_m >= low[3]) continue;
@@ -166,7 +167,8 @@ void reduce_patch(const Vec3f& normal_A, float layer_m, std::vector<PatchPoint>&
   };
   keep[2] = best_by([&](const PatchPoint& p) { return std::abs(area(p0, p1, p.on_a)); });
   const Vec3f p2 = points[keep[2]].on_a;
-  // The fourth adds most outside the triangle: against the winding of one of its sides.
+  // The fourth point adds the most area outside the triangle: against the winding of one of its
+  // sides.
   const float winding = area(p0, p1, p2) < 0 ? -1.f : 1.f;
   auto outside = [&](const PatchPoint& p) {
     return -std::min({winding * area(p0, p1, p.on_a), winding * area(p1, p2, p.on_a),

@@ -1,5 +1,5 @@
-// The contact patch of two hulls along a given axis: clipped faces or a pair of edges, cut down to
-// four points.
+// Contact patch of two hulls along a given axis: clipped faces or a pair of edges, reduced to four
+// points.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sunder::solver {
 
-/// A candidate point, in A.
+/// Candidate for a contact point, in A.
 struct PatchPoint {
   Vec3f on_a, on_b;
   float separation_m = 0;
@@ -23,17 +23,17 @@ struct PatchScratch {
   };
   std::vector<Corner> polygon, clipped;
   std::vector<Vec3f> reference;
-  std::vector<float> ahead;  ///< How far the polygon's corners are beyond a side.
+  std::vector<float> ahead;  ///< Distance of the polygon's corners beyond a side.
 };
 
-/// Appends the points of the patch that are no further apart than `reach_m`.
+/// Appends the points of the patch with a separation of at most `reach_m`.
 void make_patch(const Hull& a, const Hull& b, const RelativePose& pose, const SeparatingAxis& axis,
                 float reach_m, const HullScratch& hulls, PatchScratch& scratch,
                 std::vector<PatchPoint>& points);
 
 /// Keeps at most four points: the deepest, and those that span the largest area with it. Points
-/// more than `layer_m` above the deepest count only if there are not four below: a piece would
-/// tip onto what was left out in their favour.
+/// more than `layer_m` above the deepest count only if fewer than four are below that: a piece
+/// would tip onto a deep point that was left out.
 void reduce_patch(const Vec3f& normal_A, float layer_m, std::vector<PatchPoint>& points);
 
 }  // namespace sunder::solver

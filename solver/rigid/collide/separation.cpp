@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "solver/base/lanes.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr float kTried = -2e30f;  // less than any separation
+constexpr float kTried = -2e30f;  // less than any separation: the face is tried
 
 Wide3 splat3(const Vec3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
 
@@ -19,7 +19,7 @@ Wide3 turned(const Mat3f& R, const Wide3& v) {
           v.x * R(2, 0) + v.y * R(2, 1) + v.z * R(2, 2)};
 }
 
-/// The vertex that is least far along a direction, and how far that is.
+/// The vertex least far along a direction, and its distance along that.
 struct Deepest {
   Vec3f vertex;
   float along_m = 1e30f;
@@ -36,8 +36,8 @@ Deepest deepest(const Vec3f& direction, const std::vector<Wide3>& vertices) {
     at = {deeper ? v.x : at.x, deeper ? v.y : at.y, deeper ? v.z : at.z};
     least = min(least, along);
   }
-  const float along_m = least_of(least);
-  const std::uint32_t set = bits(least == splat(along_m));  // none, of what is not a number
+  const float along_m = min_lane(least);
+  const std::uint32_t set = bits(least == splat(along_m));  // empty if it is not a number
   const auto lane = static_cast<std::uint32_t>(set != 0 ? __builtin_ctz(set) : 0);
   return {Hull::lane(at, lane), along_m};
 }
@@ -45,15 +45,15 @@ Deepest deepest(const Vec3f& direction, const std::vector<Wide3>& vertices) {
 struct FaceAnswer {
   std::uint32_t face = 0;
   float separation_m = -1e30f;
-  Vec3f witness = Vec3f::Zero();  ///< The other hull's vertex that comes nearest to it.
+  Vec3f witness = Vec3f::Zero();  ///< The vertex of the other hull that is nearest to the face.
 };
 
-/// How far a point is in front of each of eight faces.
+/// Returns the distances of a point in front of eight faces.
 Wide ahead_of(const Hull::PlaneChunk& planes, const Wide3& point) {
   return dot(planes.normal, point) + planes.d;
 }
 
-/// Where the first of these numbers is; 0: none, of what is not a number.
+/// Returns the index of the first equal number; 0 if none is, as for NaN.
 std::uint32_t first_of(float number, const std::vector<Wide>& among) {
   for (std::uint32_t c = 0; c < among.size(); ++c)
     if (const std::uint32_t set = bits(among[c] == splat(number)))
@@ -61,9 +61,9 @@ std::uint32_t first_of(float number, const std::vector<Wide>& among) {
   return 0;
 }
 
-/// The face of `hull` that the vertices are furthest in front of. None can have all of them
-/// further in front of it than one point among them, as `within`: the most promising face is tried
-/// first, and its deepest vertex rules out most others.
+/// Returns the face of `hull` that has all vertices furthest in front of it. The distance of one
+/// point among the vertices, such as `within`, is an upper bound for each face: the face with the
+/// largest bound is tried first, and its deepest vertex excludes most others.
 FaceAnswer best_face(const Hull& hull, const Vec3f& within, const std::vector<Wide3>& vertices,
                      std::vector<Wide>& at_most) {
   const auto planes = hull.planes();
@@ -84,7 +84,7 @@ FaceAnswer best_face(const Hull& hull, const Vec3f& within, const std::vector<Wi
     at_most[c] = ahead_of(planes[c], splat3(within));
     most = max(most, at_most[c]);
   }
-  const std::uint32_t first = first_of(most_of(most), at_most);
+  const std::uint32_t first = first_of(max_lane(most), at_most);
   for (std::uint32_t f = hull.face_count(); f < planes.size() * kLanes; ++f)
     at_most[f / kLanes][f % kLanes] = kTried;
   try_face(first);
@@ -94,7 +94,7 @@ FaceAnswer best_face(const Hull& hull, const Vec3f& within, const std::vector<Wi
   return best;
 }
 
-/// How far the vertices are in front of each of eight faces, at least.
+/// Returns the least distances of the vertices in front of eight faces.
 Wide in_front(const Hull::PlaneChunk& plane, std::uint32_t vertex_count,
               const std::vector<Wide3>& vertices) {
   Wide least = splat(1e30f);
@@ -106,20 +106,21 @@ Wide in_front(const Hull::PlaneChunk& plane, std::uint32_t vertex_count,
   return least + plane.d;
 }
 
-/// What lies on the other side of a pair of edges: `toward` its centre, and a point of it.
+/// The hull on the other side of a pair of edges: the direction `toward` its centre, and a point of
+/// it.
 struct Opposite {
   Vec3f toward;
   Vec3f witness;
 };
 
-/// Lists the edges of a hull with a normal n between their faces' that may part it from the other
-/// hull by more than `least_m`. No n does by more than n·toward less `cores_m`, the radii of the
-/// balls within both, nor by more than n·(witness − edge): edges that do not face the other hull,
-/// or its deepest vertex, cannot give a better axis than one known already.
+/// Lists the edges of a hull that may separate it from the other hull by more than `least_m` with a
+/// normal n between those of their faces. The separation is at most n·toward less `cores_m`, the
+/// sum of the inner balls' radii, and at most n·(witness − edge): an edge that does not face the
+/// other hull, or its deepest vertex, cannot give a better axis than the one known.
 void facing_edges(const Hull& hull, const Opposite& other, float least_m, float cores_m,
                   HullScratch& scratch, std::vector<std::uint16_t>& facing) {
   const auto planes = hull.planes();
-  const float far_m = least_m + cores_m > 0 ? least_m + cores_m : -1e30f;
+  const float least_toward_m = least_m + cores_m > 0 ? least_m + cores_m : -1e30f;
   scratch.ahead.resize(planes.size()), scratch.toward.resize(planes.size());
   for (std::size_t c = 0; c < planes.size(); ++c) {
     scratch.ahead[c] = ahead_of(planes[c], splat3(other.witness));
@@ -136,7 +137,7 @@ void facing_edges(const Hull& hull, const Opposite& other, float least_m, float 
     const float ahead_m = more(scratch.ahead, edge);
     facing[count] = static_cast<std::uint16_t>(e);
     count += (std::max(ahead_m, ahead_m * edge.bulge) > least_m) &
-             (more(scratch.toward, edge) * edge.bulge > far_m);
+             (more(scratch.toward, edge) * edge.bulge > least_toward_m);
   }
   facing.resize(count);
 }
@@ -146,7 +147,7 @@ struct WideEdges {
   Wide3 point, direction, left, right;
 };
 
-/// Up to eight of b's listed edges, in A.
+/// Returns up to eight listed edges of b, in A.
 WideEdges edges_in_A(const Hull& b, const RelativePose& pose, const std::uint16_t* list,
                      std::uint32_t count) {
   WideEdges own{};
@@ -162,8 +163,8 @@ WideEdges edges_in_A(const Hull& b, const RelativePose& pose, const std::uint16_
           turned(pose.R, own.left), turned(pose.R, own.right)};
 }
 
-/// Edge e of a against `count` edges of b, already in A; keeps the better of `best` and the result.
-/// Only pairs whose arcs cross on the Gauss map are faces of the Minkowski difference.
+/// Tests edge e of a against `count` edges of b, given in A, and updates `best`. Only pairs whose
+/// arcs cross on the Gauss map are faces of the Minkowski difference.
 void try_edges(const Hull& a, std::uint16_t e, const WideEdges& edges_b,
                const std::uint16_t* list_b, std::uint32_t count, SeparatingAxis& best) {
   const Hull::Edge& edge = a.edges()[e];
@@ -191,8 +192,8 @@ void try_edges(const Hull& a, std::uint16_t e, const WideEdges& edges_b,
   }
 }
 
-/// The best pair of edges, if one is better than `least_m`. The witnesses are points of the other
-/// hull, in the frame of each.
+/// Returns the best pair of edges if its separation exceeds `least_m`. The witnesses are points of
+/// the other hull, in the frame of each.
 SeparatingAxis best_edges(const Hull& a, const Hull& b, const RelativePose& pose,
                           const AxisReach& reach, const Vec3f& witness_A, const Vec3f& witness_B,
                           float least_m, HullScratch& scratch) {
@@ -245,10 +246,10 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
   const FaceAnswer face_b =
       best_face(b, pose.R.transpose() * (a.center() - pose.p), scratch.a_in_B, scratch.at_most);
   const Vec3f normal = -(pose.R * b.normal(face_b.face));
-  const bool parted = face_b.separation_m > reach.along(normal);
-  if (parted || face_b.separation_m > best.separation_m + tolerance_m)
+  const bool separated = face_b.separation_m > reach.along(normal);
+  if (separated || face_b.separation_m > best.separation_m + tolerance_m)
     best = {SeparatingAxis::Kind::kFaceB, normal, face_b.separation_m, 0, face_b.face};
-  if (parted) return best;
+  if (separated) return best;
   const SeparatingAxis edges = best_edges(a, b, pose, reach, face_a.witness, face_b.witness,
                                           best.separation_m + tolerance_m, scratch);
   return edges.separation_m > best.separation_m + tolerance_m ? edges : best;
@@ -257,32 +258,32 @@ SeparatingAxis separating_axis(const Hull& a, const Hull& b, const RelativePose&
 bool touch_without_area(const Hull& a, const Hull& b, const RelativePose& pose, float sliver_m,
                         const HullScratch& scratch) {
   Vec3f first = Vec3f::Zero();
-  const auto two_part = [&](const Hull& hull, std::uint32_t vertex_count,
-                            const std::vector<Wide3>& vertices, const Mat3f& to_A) {
+  const auto two_faces_separate = [&](const Hull& hull, std::uint32_t vertex_count,
+                                      const std::vector<Wide3>& vertices, const Mat3f& to_A) {
     for (std::uint32_t c = 0; c < hull.planes().size(); ++c) {
       const Wide least = in_front(hull.planes()[c], vertex_count, vertices);
       for (std::uint32_t set = bits(least > splat(-sliver_m)); set != 0; set &= set - 1) {
         const auto k = static_cast<std::uint32_t>(__builtin_ctz(set));
         const Vec3f normal_A = to_A * Hull::lane(hull.planes()[c].normal, k);
         if (first.isZero(0)) first = normal_A;
-        if (first.dot(normal_A) < kApart) return true;
+        if (first.dot(normal_A) < kMaxEdgeCosine) return true;
       }
     }
     return false;
   };
-  return two_part(a, b.vertex_count(), scratch.b_in_A, Mat3f::Identity()) ||
-         two_part(b, a.vertex_count(), scratch.a_in_B, -pose.R);
+  return two_faces_separate(a, b.vertex_count(), scratch.b_in_A, Mat3f::Identity()) ||
+         two_faces_separate(b, a.vertex_count(), scratch.a_in_B, -pose.R);
 }
 
 std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const RelativePose& pose,
-                                           const Vec3f& way_A, float tolerance_m,
+                                           const Vec3f& displacement_A, float tolerance_m,
                                            const HullScratch& scratch) {
   std::optional<SeparatingAxis> best;
   float best_end_m = -tolerance_m;
-  const auto look = [&](const Hull& hull, std::uint32_t vertex_count,
-                        const std::vector<Wide3>& vertices, const Vec3f& way,
-                        SeparatingAxis::Kind kind) {
-    const Wide3 along = splat3(way);
+  const auto test_faces = [&](const Hull& hull, std::uint32_t vertex_count,
+                              const std::vector<Wide3>& vertices, const Vec3f& displacement,
+                              SeparatingAxis::Kind kind) {
+    const Wide3 along = splat3(displacement);
     for (std::uint32_t c = 0; c < hull.planes().size(); ++c) {
       const Hull::PlaneChunk& planes = hull.planes()[c];
       const Wide least = in_front(planes, vertex_count, vertices);
@@ -297,9 +298,9 @@ std::optional<SeparatingAxis> passing_axis(const Hull& a, const Hull& b, const R
       }
     }
   };
-  look(a, b.vertex_count(), scratch.b_in_A, way_A, SeparatingAxis::Kind::kFaceA);
-  look(b, a.vertex_count(), scratch.a_in_B, pose.R.transpose() * -way_A,
-       SeparatingAxis::Kind::kFaceB);
+  test_faces(a, b.vertex_count(), scratch.b_in_A, displacement_A, SeparatingAxis::Kind::kFaceA);
+  test_faces(b, a.vertex_count(), scratch.a_in_B, pose.R.transpose() * -displacement_A,
+             SeparatingAxis::Kind::kFaceB);
   if (!best) return {};
   if (best->kind == SeparatingAxis::Kind::kFaceA) best->index_b = 0;
   if (best->kind == SeparatingAxis::Kind::kFaceB)
@@ -313,7 +314,7 @@ float separation_along(const Vec3f& axis_A, const Hull& a, const Hull& b,
   Wide most = splat(-1e30f), least = splat(1e30f);
   for (const Wide3& vertices : a.vertices()) most = max(most, dot(axis_a, vertices));
   for (const Wide3& vertices : b.vertices()) least = min(least, dot(axis_b, vertices));
-  return least_of(least) + axis_A.dot(pose.p) - most_of(most);
+  return min_lane(least) + axis_A.dot(pose.p) - max_lane(most);
 }
 
 }  // namespace sunder::solver

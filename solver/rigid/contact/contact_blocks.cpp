@@ -1,4 +1,4 @@
-// Blocks of 1, 4, 8 and 16 lanes, and which of them this processor runs.
+// Blocks of 1, 4, 8 and 16 lanes, and the choice among them for the processor.
 #include "solver/rigid/contact/contact_blocks.h"
 
 #include <algorithm>
@@ -19,19 +19,20 @@ class BlocksOf final : public ContactBlocks {
     const std::size_t blocks = manifolds / kWidth + kMaxColors;
     if (blocks > blocks_.capacity()) blocks_.reserve(std::max(blocks, 2 * blocks_.size()));
   }
-  void follow_bodies(bool wanted) override { arms_.resize(wanted ? used_ : 0); }
-  void follow(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+  void allocate_arms(bool wanted) override { arms_.resize(wanted ? used_ : 0); }
+  void update_arms(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     const auto h_s = static_cast<float>(step.context.h_s);
     for (std::uint32_t i = begin; i < end; ++i)
-      solver::follow(blocks_[i], arms_[i], step.rows, h_s);
+      solver::update_arms(blocks_[i], arms_[i], step.rows, h_s);
   }
-  void settle(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::settle(blocks_[i], arms_[i], step.rows);
+  void apply_arm_change(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+    for (std::uint32_t i = begin; i < end; ++i)
+      solver::apply_arm_change(blocks_[i], arms_[i], step.rows);
   }
-  void remember() override { search_.resize(used_); }
+  void allocate_search() override { search_.resize(used_); }
   void add(std::uint32_t first, std::uint32_t count, bool split) override {
     for (std::uint32_t i = 0; i < count; i += kWidth) {
-      // Blocks of the last step are written over, not cleared.
+      // Blocks of the last step are overwritten, not cleared.
       if (used_ == blocks_.size()) blocks_.emplace_back();
       ConstraintBlock<kWidth>& block = blocks_[used_++];
       block.first = first + i;
@@ -64,41 +65,42 @@ class BlocksOf final : public ContactBlocks {
   void sum_impulses(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) solver::sum_impulses(blocks_[i]);
   }
-  void scale_impulses(std::uint32_t begin, std::uint32_t end, const float* share_of_row) override {
+  void scale_impulses(std::uint32_t begin, std::uint32_t end, const float* scale_of_row) override {
     for (std::uint32_t i = begin; i < end; ++i) {
       ArmLanes<kWidth>* const arms = arms_.empty() ? nullptr : &arms_[i];
-      solver::scale_impulses(blocks_[i], arms, share_of_row);
+      solver::scale_impulses(blocks_[i], arms, scale_of_row);
     }
   }
-  void note_spin(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
-                 const float* share_of_row) override {
+  void record_spin_change(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                          const float* scale_of_row) override {
     const auto h_s = static_cast<float>(step.context.h_s);
     for (std::uint32_t i = begin; i < end; ++i)
-      solver::note_spin(blocks_[i], arms_[i], step.rows, share_of_row, h_s);
+      solver::record_spin_change(blocks_[i], arms_[i], step.rows, scale_of_row, h_s);
   }
-  void mark(std::uint32_t begin, std::uint32_t end) override {
-    for (std::uint32_t i = begin; i < end; ++i) solver::mark(blocks_[i], search_[i]);
+  void save_impulses(std::uint32_t begin, std::uint32_t end) override {
+    for (std::uint32_t i = begin; i < end; ++i) solver::save_impulses(blocks_[i], search_[i]);
   }
-  void measure(std::uint32_t begin, std::uint32_t end, float* energy) const override {
+  void find_change_energy(std::uint32_t begin, std::uint32_t end, float* energy) const override {
     for (std::uint32_t i = begin; i < end; ++i) {
       float of_lane[kWidth];
-      solver::measure(blocks_[i], search_[i], of_lane);
+      solver::find_change_energy(blocks_[i], search_[i], of_lane);
       std::copy_n(of_lane, blocks_[i].count, energy + blocks_[i].first);
     }
   }
-  void go_on(std::uint32_t begin, std::uint32_t end, const ContactStep& step, float beta) override {
+  void step_along_direction(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
+                            float beta) override {
     for (std::uint32_t i = begin; i < end; ++i)
-      solver::go_on(blocks_[i], search_[i], step.rows, beta);
+      solver::step_along_direction(blocks_[i], search_[i], step.rows, beta);
   }
-  bool strike(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+  bool apply_restitution(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     const auto h_s = static_cast<float>(step.context.h_s);
     bool any = false;
     for (std::uint32_t i = begin; i < end; ++i)
-      any |= solver::strike(blocks_[i], arms_[i], step.rows, h_s);
+      any |= solver::apply_restitution(blocks_[i], arms_[i], step.rows, h_s);
     return any;
   }
-  void expect_impacts(std::size_t manifolds) override {
-    // Written over, not cleared.
+  void allocate_impacts(std::size_t manifolds) override {
+    // Overwritten, not cleared.
     if (impacts_.size() < used_) impacts_.resize(used_);
     if (pairs_.size() < manifolds) pairs_.resize(manifolds), contacts_.resize(manifolds);
   }
@@ -106,26 +108,26 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i)
       solver::prepare_impact(step, blocks_[i], impacts_[i]);
   }
-  bool meet(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+  bool find_gaps(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     bool any = false;
     for (std::uint32_t i = begin; i < end; ++i)
-      any |= solver::meet(blocks_[i], impacts_[i], step.rows, step.soft.inverse_h);
+      any |= solver::find_gaps(blocks_[i], impacts_[i], step.rows, step.soft.inverse_h);
     return any;
   }
-  void begin_impact(std::uint32_t begin, std::uint32_t end) override {
+  void extract_contacts(std::uint32_t begin, std::uint32_t end) override {
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t first = blocks_[i].first;
-      solver::begin_impact(blocks_[i], impacts_[i], &pairs_[first], &contacts_[first]);
+      solver::extract_contacts(blocks_[i], impacts_[i], &pairs_[first], &contacts_[first]);
     }
   }
-  bool pass_on(std::uint32_t first, std::uint32_t count, const ContactStep& step,
-               const ImpactSweep& sweep) override {
-    return solver::pass_on<kWidth>(&pairs_[first], &contacts_[first], count, step.rows, step.soft,
-                                   sweep);
+  bool propagate(std::uint32_t first, std::uint32_t count, const ContactStep& step,
+                 const ImpactSweep& sweep) override {
+    return solver::propagate<kWidth>(&pairs_[first], &contacts_[first], count, step.rows, step.soft,
+                                     sweep);
   }
-  void end_impact(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
+  void apply_propagation(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i)
-      solver::end_impact(blocks_[i], impacts_[i], &contacts_[blocks_[i].first], step.rows);
+      solver::apply_propagation(blocks_[i], impacts_[i], &contacts_[blocks_[i].first], step.rows);
   }
   void store(std::uint32_t begin, std::uint32_t end, const ContactStep& step) override {
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -160,7 +162,7 @@ class BlocksOf final : public ContactBlocks {
   }
 
  private:
-  // What lies scattered is asked for a block ahead; the blocks themselves stream.
+  // Prefetches scattered memory one block ahead; the blocks themselves are contiguous.
   static void fetch_manifolds(const ConstraintBlock<kWidth>& c, const ContactStep& step) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       const Manifold* m = &step.contacts.manifolds[step.manifolds[c.first + lane]];
@@ -179,12 +181,12 @@ class BlocksOf final : public ContactBlocks {
   std::vector<ArmLanes<kWidth>> arms_;
   std::vector<SearchLanes<kWidth>> search_;
   std::vector<ImpactLanes<kWidth>> impacts_;
-  std::vector<ImpactPair> pairs_;  ///< By manifold of those to solve, as the next.
+  std::vector<ImpactPair> pairs_;  ///< By manifold to solve; so are contacts_.
   std::vector<ImpactContact> contacts_;
   std::uint32_t used_ = 0;
 };
 
-/// The most lanes that this processor has instructions for.
+/// Returns the maximum number of lanes that the processor has instructions for.
 int supported_lanes() {
 #if defined(__x86_64__)
   __builtin_cpu_init();

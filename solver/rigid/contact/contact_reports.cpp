@@ -10,7 +10,7 @@ namespace {
 
 using Keyed = std::pair<std::uint64_t, const Manifold*>;
 
-/// Manifolds that are there and fit, in the order of their pairs' keys.
+/// Returns the manifolds for which `fits` is true, in order of their pairs' keys.
 template <class Fits>
 std::vector<Keyed> by_key(const Contacts& contacts, const Fits& fits) {
   constexpr std::size_t kChunk = 4096;
@@ -27,18 +27,18 @@ std::vector<Keyed> by_key(const Contacts& contacts, const Fits& fits) {
 
 }  // namespace
 
-std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodies& bodies,
-                                            const Shapes& shapes) {
+std::vector<ContactImpulse> find_contact_impulses(const Contacts& contacts, const Bodies& bodies,
+                                                  const Shapes& shapes) {
   const auto is_reported = [&](const Manifold& m) {
     return bodies.reports_load[m.body_a] || bodies.reports_load[m.body_b];
   };
-  std::vector<ContactLoad> loads;
+  std::vector<ContactImpulse> loads;
   for (const auto& [key, manifold] : by_key(contacts, is_reported)) {
     const Manifold& m = *manifold;
     const Pair& pair = contacts.pairs[m.pair];
     const Vec3 impulse = m.step_impulse_W.cast<double>();
     if (impulse.isZero(0)) continue;
-    const Vec3 point = bodies.position[m.body_a] + m.middle_of_load().cast<double>();
+    const Vec3 point = bodies.position[m.body_a] + m.center_of_load().cast<double>();
     for (const bool on_b : {false, true}) {
       const BodySlot body = on_b ? m.body_b : m.body_a;
       if (!bodies.reports_load[body]) continue;
@@ -49,23 +49,24 @@ std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodi
   return loads;
 }
 
-std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bodies, double h_s) {
-  std::vector<PressPoint> presses;
-  if (!(h_s > 0)) return presses;
+std::vector<ContactForce> find_contact_forces(const Contacts& contacts, const Bodies& bodies,
+                                              double h_s) {
+  std::vector<ContactForce> contact_forces;
+  if (!(h_s > 0)) return contact_forces;
   const auto is_pressed = [](const Manifold& m) { return m.normal_impulse() > 0; };
   for (const auto& [key, manifold] : by_key(contacts, is_pressed)) {
     const Manifold& m = *manifold;
-    // Friction acts at their middle: each point has its part of it.
+    // Friction acts at the mean of the points: each point has a share of it.
     const Vec3 force_W = m.impulse_W().cast<double>() / (h_s * double{m.normal_impulse()});
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
       if (!(p.impulse_Ns > 0)) continue;
       const Vec3 arm_W = bodies.rotation[m.body_a] * p.anchor_A.cast<double>();
-      presses.push_back({bodies.tag[m.body_a], bodies.tag[m.body_b],
-                         bodies.position[m.body_a] + arm_W, double{p.impulse_Ns} * force_W});
+      contact_forces.push_back({bodies.tag[m.body_a], bodies.tag[m.body_b],
+                                bodies.position[m.body_a] + arm_W, double{p.impulse_Ns} * force_W});
     }
   }
-  return presses;
+  return contact_forces;
 }
 
 std::vector<float> find_penetrations(const Contacts& contacts) {

@@ -1,4 +1,4 @@
-// What contacts did in the last solve, for the world and its statistics.
+// Reports of the contacts of the last solve, for the world and its statistics.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,12 @@
 
 namespace sunder::solver {
 
-/// See Physics::contact_loads().
-std::vector<ContactLoad> find_contact_loads(const Contacts& contacts, const Bodies& bodies,
-                                            const Shapes& shapes);
-/// See Physics::inspect(); `h_s` is that of the impulses kept, 0: there are none.
-std::vector<PressPoint> find_presses(const Contacts& contacts, const Bodies& bodies, double h_s);
+/// See Physics::contact_impulses().
+std::vector<ContactImpulse> find_contact_impulses(const Contacts& contacts, const Bodies& bodies,
+                                                  const Shapes& shapes);
+/// See Physics::inspect(); `h_s` is the substep of the stored impulses, 0: none stored.
+std::vector<ContactForce> find_contact_forces(const Contacts& contacts, const Bodies& bodies,
+                                              double h_s);
 /// See Physics::penetrations().
 std::vector<float> find_penetrations(const Contacts& contacts);
 

@@ -7,18 +7,19 @@
 #include "engine/base/nncg.h"
 #include "solver/rigid/body/motion.h"
 #include "solver/rigid/body/row_exchange.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kBodyGrain = 128;
 constexpr std::uint32_t kManifoldGrain = 64;
-constexpr int kStrikeRounds = 16;  // a substep: balls in a row that pass an impact on
+/// Number of restitution rounds in a substep: of balls in a row that propagate an impact.
+constexpr int kRestitutionRounds = 16;
 
 }  // namespace
 
-/// The stages of one solve, and what each does: to bodies, to blocks of manifolds, to groups of
+/// The stages of one solve and their work on bodies, on blocks of manifolds and on groups of
 /// joints.
 class ContactSolver::Stages {
  public:
@@ -30,8 +31,9 @@ class ContactSolver::Stages {
         joints_(joints),
         rows_(solver.rows_.data() + solver.kinematic_.size()),
         accelerated_(!solver.energy_.empty()),
-        guarded_(solver.energy_guard_.watches()),
-        gravity_{step.kick_W.x(), step.kick_W.y(), step.kick_W.z(), 0, 0, 0, 0, 0},
+        guarded_(solver.energy_guard_.is_active()),
+        gravity_{
+            step.gravity_dv_W.x(), step.gravity_dv_W.y(), step.gravity_dv_W.z(), 0, 0, 0, 0, 0},
         half_fall_(static_cast<float>(0.5 * step.h_s) * gravity_),
         contact_step_{step,
                       bodies,
@@ -40,9 +42,9 @@ class ContactSolver::Stages {
                       solver.order_.first_split(),
                       solver.splitting_.sides(),
                       solver.root_W_,
-                      {rows_, solver.splitting_.parts(), solver.spins_.owed()},
+                      {rows_, solver.splitting_.parts(), solver.spins_.pending()},
                       soft_step(step),
-                      static_cast<float>(kSlowFalls * step.fall_m_s / step.substeps),
+                      static_cast<float>(kReboundSpeed * step.fall_m_s / step.substeps),
                       solver.order_.deep_contacts(),
                       solver.order_.loaded_contacts(),
                       solver.kinematic_rows_} {}
@@ -63,30 +65,30 @@ class ContactSolver::Stages {
   };
 
   void plan();
-  /// What follows the last sweep sees it joined: the move and the kick do that themselves, so that
-  /// mass splitting waits once a sweep.
+  /// Plans the sweeps of a substep. After all sweeps but the last, split bodies are joined; after
+  /// the last one join_and_move() and join_and_add_gravity() do that, which saves a stage.
   template <WorkOnGroup joint_work>
   void sweeps(Work work, Work last_work) {
     for (int i = 1; i <= solver_.options_.sweeps; ++i) {
       const bool last = i == solver_.options_.sweeps;
-      if (accelerated_ && !last) all_blocks(&Stages::mark);
+      if (accelerated_ && !last) all_blocks(&Stages::save_impulses);
       each_joint_color<joint_work>();
       each_color(last ? last_work : work);
       if (last) break;
       join_if_split();
       if (!accelerated_) continue;
-      all_blocks(&Stages::measure);
+      all_blocks(&Stages::find_change_energy);
       once(i == 1 ? &Stages::first_beta : &Stages::next_beta);
-      each_color(&Stages::go_on);
+      each_color(&Stages::step_along_direction);
     }
   }
 
-  /// Before sweeps, which let nothing meet with any speed.
-  void strikes() {
-    if (!kStrikes || !solver_.order_.bouncy() || !solver_.moving_) return;
-    for (int round = 0; round < kStrikeRounds; ++round) {
-      once(round == 0 ? &Stages::first_strikes : &Stages::begin_strikes);
-      each_color(&Stages::strike);
+  /// Restitution comes before the sweeps, which remove all closing speed.
+  void plan_restitution() {
+    if (!kAppliesRestitution || !solver_.order_.bouncy() || !solver_.moving_) return;
+    for (int round = 0; round < kRestitutionRounds; ++round) {
+      once(round == 0 ? &Stages::first_restitution : &Stages::begin_restitution);
+      each_color(&Stages::apply_restitution);
     }
   }
   void once(Work work) { stages_.push_back({{0, 1, 1}, work}); }
@@ -121,39 +123,44 @@ class ContactSolver::Stages {
   }
 
   // Bodies.
-  void fly_all(std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) fly(step_, solver_.flying_[i], bodies_);
+  void move_free_bodies(std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i)
+      move_freely(step_, solver_.free_bodies_[i], bodies_);
   }
   BodyRow& row(BodySlot body) { return rows_[row_of(body)]; }
-  void take(BodySlot body) { take_row(bodies_, body, row(body), solver_.root_W_[body]); }
-  void give(BodySlot body) { give_row(row(body), solver_.root_W_[body], body, bodies_); }
+  void load_body(BodySlot body) { load_row(bodies_, body, row(body), solver_.root_W_[body]); }
+  void store_body(BodySlot body) {
+    store_velocity_of_row(row(body), solver_.root_W_[body], body, bodies_);
+  }
   void begin(BodySlot body);
-  void first_kick(BodySlot body) {
+  void add_first_gravity(BodySlot body) {
     BodyRow& r = row(body);
     r.velocity = r.base = r.velocity + gravity_;
-    if (guarded_) solver_.energy_guard_.weigh_base(body, bodies_.inverse_mass[body], r);
+    if (guarded_) solver_.energy_guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
   }
-  /// All impulses of a substep, warm start included, act on `base`: what they did to the velocity
-  /// is the warm start of the next substep.
-  void kick(BodySlot body) {
+  /// Adds gravity to `base` before all impulses of a substep, warm start included: the change of
+  /// velocity by the impulses is the warm start of the next substep.
+  void add_gravity(BodySlot body) {
     BodyRow& r = row(body);
     const Wide impulses = r.velocity - r.base;
     r.base = r.velocity + gravity_;
-    // Joints know theirs, and the roundings of a difference would add up.
-    r.velocity = solver_.joint_solver_.swings_free(body) ? r.base : r.base + impulses;
-    if (guarded_) solver_.energy_guard_.weigh_base(body, bodies_.inverse_mass[body], r);
+    // The joint solver warm starts bodies that only joints hold: rounding of a difference would
+    // accumulate.
+    r.velocity = solver_.joint_solver_.hangs_free(body) ? r.base : r.base + impulses;
+    if (guarded_) solver_.energy_guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
   }
-  void join_and_kick(BodySlot body) { join(body), kick(body); }
+  void join_and_add_gravity(BodySlot body) { join(body), add_gravity(body); }
   void join(BodySlot body) { solver_.splitting_.join(body, row(body)); }
   void join_and_move(BodySlot body) {
     join(body);
     BodyRow& r = row(body);
     const Wide pushed = r.velocity - r.base;
     const bool flies = linear(pushed).isZero(0) && angular(pushed).isZero(0);
-    if (flies || (guarded_ && solver_.energy_guard_.falls(body))) r.position -= half_fall_;
+    if (flies || (guarded_ && solver_.energy_guard_.is_in_free_fall(body)))
+      r.position -= half_fall_;
     r.position += static_cast<float>(step_.h_s) * r.velocity;
   }
-  void carry_on(std::uint32_t, std::uint32_t) {
+  void move_kinematic_bodies(std::uint32_t, std::uint32_t) {
     for (BodyRow* r = solver_.rows_.data(); r < rows_; ++r)
       r->position += static_cast<float>(step_.h_s) * r->velocity;
   }
@@ -167,11 +174,11 @@ class ContactSolver::Stages {
   void warm_start(std::uint32_t begin, std::uint32_t end) {
     solver_.blocks_->warm_start(begin, end, contact_step_);
   }
-  void follow(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->follow(begin, end, contact_step_);
+  void update_arms(std::uint32_t begin, std::uint32_t end) {
+    solver_.blocks_->update_arms(begin, end, contact_step_);
   }
-  void settle(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->settle(begin, end, contact_step_);
+  void apply_arm_change(std::uint32_t begin, std::uint32_t end) {
+    solver_.blocks_->apply_arm_change(begin, end, contact_step_);
   }
   void sweep_biased(std::uint32_t begin, std::uint32_t end) {
     solver_.blocks_->sweep_biased(begin, end, contact_step_);
@@ -183,11 +190,14 @@ class ContactSolver::Stages {
     sweep_relaxed(begin, end);
     solver_.blocks_->sum_impulses(begin, end);
   }
-  /// Another round, if the last one struck something: what it struck may now meet a neighbour.
-  void first_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = true, struck_ = 0; }
-  void begin_strikes(std::uint32_t, std::uint32_t) { strikes_on_ = struck_.exchange(0) != 0; }
-  void strike(std::uint32_t begin, std::uint32_t end) {
-    if (strikes_on_ && solver_.blocks_->strike(begin, end, contact_step_)) struck_ = 1;
+  /// Starts another round if the last one had a rebound: a struck body may now meet a neighbour.
+  void first_restitution(std::uint32_t, std::uint32_t) { rebounds_on_ = true, any_rebound_ = 0; }
+  void begin_restitution(std::uint32_t, std::uint32_t) {
+    rebounds_on_ = any_rebound_.exchange(0) != 0;
+  }
+  void apply_restitution(std::uint32_t begin, std::uint32_t end) {
+    if (rebounds_on_ && solver_.blocks_->apply_restitution(begin, end, contact_step_))
+      any_rebound_ = 1;
   }
   void store(std::uint32_t begin, std::uint32_t end) {
     solver_.blocks_->store(begin, end, contact_step_);
@@ -195,63 +205,72 @@ class ContactSolver::Stages {
   void prepare_impacts(std::uint32_t, std::uint32_t) {
     solver_.impact_pass_.prepare(contact_step_, *solver_.blocks_);
   }
-  void pass_impacts(std::uint32_t, std::uint32_t) {
+  void propagate_impacts(std::uint32_t, std::uint32_t) {
     solver_.impact_pass_.run(contact_step_, *solver_.blocks_);
   }
 
   // Groups of joints.
-  JointStep at_hand() const { return {solver_.root_W_, solver_.kinematic_rows_}; }
+  JointStep step_bodies() const { return {solver_.root_W_, solver_.kinematic_rows_}; }
   void begin_joints(std::uint32_t i) {
-    solver_.joint_solver_.begin(i, step_, bodies_, joints_, at_hand(), rows_);
+    solver_.joint_solver_.begin(i, step_, bodies_, joints_, step_bodies(), rows_);
   }
-  void settle_joints(std::uint32_t i) {
-    solver_.joint_solver_.settle(i, step_, bodies_, joints_, at_hand(), rows_);
+  void solve_joints_final(std::uint32_t i) {
+    solver_.joint_solver_.solve_final(i, step_, bodies_, joints_, step_bodies(), rows_);
   }
   void warm_start_joints(std::uint32_t i) { solver_.joint_solver_.warm_start(i, step_, rows_); }
-  void push_joints(std::uint32_t i) { solver_.joint_solver_.push(i, step_, rows_); }
+  void solve_joints_biased(std::uint32_t i) { solver_.joint_solver_.solve_biased(i, step_, rows_); }
   void refresh_joints(std::uint32_t i) { solver_.joint_solver_.refresh(i, step_, rows_); }
-  void relax_joints(std::uint32_t i) { solver_.joint_solver_.relax(i, step_, rows_); }
-  void test_joints(std::uint32_t i) { solver_.joint_solver_.test(i, step_, rows_); }
+  void solve_joints_relaxed(std::uint32_t i) {
+    solver_.joint_solver_.solve_relaxed(i, step_, rows_);
+  }
+  void break_joints(std::uint32_t i) { solver_.joint_solver_.break_overloaded(i, step_, rows_); }
 
   // Conjugate gradients.
-  void mark(std::uint32_t begin, std::uint32_t end) { solver_.blocks_->mark(begin, end); }
-  void measure(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->measure(begin, end, solver_.energy_.data());
+  void save_impulses(std::uint32_t begin, std::uint32_t end) {
+    solver_.blocks_->save_impulses(begin, end);
+  }
+  void find_change_energy(std::uint32_t begin, std::uint32_t end) {
+    solver_.blocks_->find_change_energy(begin, end, solver_.energy_.data());
   }
   void first_beta(std::uint32_t begin, std::uint32_t end) { nncg_ = {}, next_beta(begin, end); }
-  /// By the energy of the changes.
+  /// Finds beta from the energy of a sweep's changes.
   void next_beta(std::uint32_t, std::uint32_t) {
     double energy = 0;
     for (const float of_manifold : solver_.energy_) energy += double{of_manifold};
     beta_ = static_cast<float>(nncg_.beta(energy));
   }
-  void go_on(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->go_on(begin, end, contact_step_, beta_);
+  void step_along_direction(std::uint32_t begin, std::uint32_t end) {
+    solver_.blocks_->step_along_direction(begin, end, contact_step_, beta_);
   }
 
-  // The guard of energy.
-  void weigh(BodySlot body) {
-    solver_.energy_guard_.weigh(body, bodies_.inverse_mass[body], row(body));
+  // The energy guard.
+  void record_impulse_work(BodySlot body) {
+    solver_.energy_guard_.record_impulse_work(body, bodies_.inverse_mass[body], row(body));
   }
-  void decide(std::uint32_t, std::uint32_t) { solver_.energy_guard_.decide(solver_.active_); }
-  void judge(std::uint32_t, std::uint32_t) { solver_.energy_guard_.judge(solver_.active_); }
+  void sum_requests(std::uint32_t, std::uint32_t) {
+    solver_.energy_guard_.sum_requests(solver_.active_);
+  }
+  void find_impulse_scales(std::uint32_t, std::uint32_t) {
+    solver_.energy_guard_.find_impulse_scales(solver_.active_);
+  }
   void scale_body(BodySlot body) {
-    if (!solver_.energy_guard_.objects()) return;
+    if (!solver_.energy_guard_.needs_scaling()) return;
     BodyRow& r = row(body);
-    const float share = solver_.energy_guard_.share_of_row()[row_of(body)];
+    const float share = solver_.energy_guard_.scale_of_row()[row_of(body)];
     r.velocity = r.base + share * (r.velocity - r.base);
   }
   void scale_impulses(std::uint32_t begin, std::uint32_t end) {
-    if (solver_.energy_guard_.objects())
-      solver_.blocks_->scale_impulses(begin, end, solver_.energy_guard_.share_of_row());
+    if (solver_.energy_guard_.needs_scaling())
+      solver_.blocks_->scale_impulses(begin, end, solver_.energy_guard_.scale_of_row());
   }
-  void note_spin(std::uint32_t begin, std::uint32_t end) {
-    if (solver_.energy_guard_.objects())
-      solver_.blocks_->note_spin(begin, end, contact_step_, solver_.energy_guard_.share_of_row());
+  void record_spin_change(std::uint32_t begin, std::uint32_t end) {
+    if (solver_.energy_guard_.needs_scaling())
+      solver_.blocks_->record_spin_change(begin, end, contact_step_,
+                                          solver_.energy_guard_.scale_of_row());
   }
   void scale_joints(std::uint32_t i) {
-    if (solver_.energy_guard_.objects())
-      solver_.joint_solver_.scale_impulses(i, step_, solver_.energy_guard_.share_of_row(), rows_);
+    if (solver_.energy_guard_.needs_scaling())
+      solver_.joint_solver_.scale_impulses(i, step_, solver_.energy_guard_.scale_of_row(), rows_);
   }
 
   ContactSolver& solver_;
@@ -260,89 +279,94 @@ class ContactSolver::Stages {
   Joints& joints_;
   BodyRow* rows_;
   bool accelerated_, guarded_;
-  Wide gravity_;    ///< What it does to a row's velocity in a substep.
-  Wide half_fall_;  ///< By how much the way of a substep at its last velocity is longer than a
-                    ///< parabola.
+  Wide gravity_;  ///< Change of a row's velocity by gravity in a substep.
+  /// Excess of a substep's displacement at its final velocity over that of a parabola.
+  Wide half_fall_;
   ContactStep contact_step_;
   std::vector<Stage> stages_;
-  bool strikes_on_ = false;
-  std::atomic<int> struck_ = 0;  ///< In this round of strikes.
+  bool rebounds_on_ = false;
+  std::atomic<int> any_rebound_ = 0;  ///< 1: a contact rebounded in this round.
   Nncg nncg_;
   float beta_ = 0;
 };
 
 void ContactSolver::Stages::plan() {
-  const auto flying = static_cast<std::uint32_t>(solver_.flying_.size());
-  stages_.push_back({{0, flying, kBodyGrain}, &Stages::fly_all});
+  const auto free = static_cast<std::uint32_t>(solver_.free_bodies_.size());
+  stages_.push_back({{0, free, kBodyGrain}, &Stages::move_free_bodies});
   if (solver_.active_.empty()) return;
   const bool joints = !solver_.joint_solver_.empty(), impacts = !solver_.impact_pass_.empty();
-  const bool joined = joints || guarded_;  // before the kick: what comes between needs it
+  const bool joined = joints || guarded_;  // before gravity is added, as stages between need it
   all_bodies<&Stages::begin>();
   all_blocks(&Stages::prepare);
   if (impacts) once(&Stages::prepare_impacts);
   each_joint_color<&Stages::begin_joints>();
   for (int s = 0; s < step_.substeps; ++s) {
     if (s == 0) {
-      all_bodies<&Stages::first_kick>();
+      all_bodies<&Stages::add_first_gravity>();
       each_joint_color<&Stages::warm_start_joints>();
       each_color(&Stages::warm_start);
       join_if_split();
-      if (solver_.moving_) all_blocks(&Stages::follow);
+      if (solver_.moving_) all_blocks(&Stages::update_arms);
     } else {
-      joined ? all_bodies<&Stages::kick>() : all_bodies<&Stages::join_and_kick>();
-      if (solver_.moving_) each_color(&Stages::settle), join_if_split();
+      joined ? all_bodies<&Stages::add_gravity>() : all_bodies<&Stages::join_and_add_gravity>();
+      if (solver_.moving_) each_color(&Stages::apply_arm_change), join_if_split();
     }
-    strikes();
-    if (impacts) once(&Stages::pass_impacts);
-    sweeps<&Stages::push_joints>(&Stages::sweep_biased, &Stages::sweep_biased);
+    plan_restitution();
+    if (impacts) once(&Stages::propagate_impacts);
+    sweeps<&Stages::solve_joints_biased>(&Stages::sweep_biased, &Stages::sweep_biased);
     all_bodies<&Stages::join_and_move>();
-    if (!solver_.kinematic_.empty()) once(&Stages::carry_on);
-    if (solver_.moving_) all_blocks(&Stages::follow);
+    if (!solver_.kinematic_.empty()) once(&Stages::move_kinematic_bodies);
+    if (solver_.moving_) all_blocks(&Stages::update_arms);
     each_joint_color<&Stages::refresh_joints>();
-    sweeps<&Stages::relax_joints>(&Stages::sweep_relaxed, &Stages::sweep_last);
+    sweeps<&Stages::solve_joints_relaxed>(&Stages::sweep_relaxed, &Stages::sweep_last);
     if (joined || s + 1 == step_.substeps) join_if_split();
-    each_joint_color<&Stages::test_joints>();
+    each_joint_color<&Stages::break_joints>();
     if (!guarded_) continue;
-    all_bodies<&Stages::weigh>();
-    once(&Stages::judge);
+    all_bodies<&Stages::record_impulse_work>();
+    once(&Stages::find_impulse_scales);
     all_bodies<&Stages::scale_body>();
-    if (solver_.moving_) each_color(&Stages::note_spin);
+    if (solver_.moving_) each_color(&Stages::record_spin_change);
     all_blocks(&Stages::scale_impulses);
     each_joint_color<&Stages::scale_joints>();
   }
   all_blocks(&Stages::store);
   all_bodies<&Stages::turn>();
-  if (guarded_) once(&Stages::decide);
+  if (guarded_) once(&Stages::sum_requests);
   all_bodies<&Stages::finish>();
   if (!joints) return;
-  all_bodies<&Stages::take>();
-  each_joint_color<&Stages::settle_joints>();
-  all_bodies<&Stages::give>();
+  all_bodies<&Stages::load_body>();
+  each_joint_color<&Stages::solve_joints_final>();
+  all_bodies<&Stages::store_body>();
 }
 
 void ContactSolver::Stages::begin(BodySlot body) {
-  // What joints alone hold turns as it does midway.
-  solver_.spins_.begin(step_, body, solver_.joint_solver_.swings_free(body), bodies_);
-  take(body);
+  // A body that only joints hold uses the angular velocity at the middle of the step.
+  solver_.spins_.begin(step_, body, solver_.joint_solver_.hangs_free(body), bodies_);
+  load_body(body);
 }
 
 void ContactSolver::Stages::turn(BodySlot body) {
-  const double made_J = solver_.spins_.end(step_, body, row(body), solver_.root_W_[body], bodies_);
-  if (guarded_) solver_.energy_guard_.ask(body, made_J, bodies_.inverse_mass[body], row(body));
+  const double gained_J =
+      solver_.spins_.end(step_, body, row(body), solver_.root_W_[body], bodies_);
+  if (guarded_)
+    solver_.energy_guard_.request_rotation_energy(body, gained_J, bodies_.inverse_mass[body],
+                                                  row(body));
 }
 
 void ContactSolver::Stages::finish(BodySlot body) {
   const BodyRow& r = row(body);
   const Mat3f& root_W = solver_.root_W_[body];
-  const bool pays = guarded_ ? solver_.energy_guard_.grants(body) : !solver_.spins_.makes(body);
-  if (!pays) solver_.spins_.keep_energy(body, r, root_W, bodies_);
-  const Turning& turning = solver_.spins_.turning(body);
-  // Only the change goes back, so that the doubles keep what no contact touched.
+  const bool keeps_angular_momentum = guarded_
+                                          ? solver_.energy_guard_.may_keep_angular_momentum(body)
+                                          : !solver_.spins_.gains_energy(body);
+  if (!keeps_angular_momentum) solver_.spins_.keep_energy(body, r, root_W, bodies_);
+  const RotationState& rotation = solver_.spins_.state(body);
+  // Only the change is added, so that the doubles keep what no contact changed.
   bodies_.velocity[body] += linear(r.velocity - r.start).cast<double>();
-  bodies_.angular_velocity[body] = turning.w_W;
+  bodies_.angular_velocity[body] = rotation.w_W;
   bodies_.turned_m[body] +=
       1.1 * double{(root_W * angular(r.position)).norm()} * bodies_.reach_m[body];
-  bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), turning.R_WB);
+  bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), rotation.R_WB);
 }
 
 ContactSolver::ContactSolver(const ContactSolverOptions& options)
@@ -354,17 +378,17 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
   make_blocks();
   splitting_.split(order_.manifolds().subspan(order_.first_split()), bodies, contacts);
   const bool accelerated = options_.accelerated && options_.sweeps > 1 && splitting_.empty();
-  if (accelerated) blocks_->remember();
+  if (accelerated) blocks_->allocate_search();
   energy_.resize(accelerated ? order_.manifolds().size() : 0);
   joint_solver_.collect(bodies, joints, order_.in_contact());
   collect_bodies(bodies);
   moving_ = !kinematic_.empty() || std::ranges::any_of(active_, [&](BodySlot body) {
-    return bodies.velocity[body].norm() * step.dt_s > double{kStill} * bodies.reach_m[body];
+    return bodies.velocity[body].norm() * step.dt_s > double{kArmMotion} * bodies.reach_m[body];
   });
-  blocks_->follow_bodies(moving_);
+  blocks_->allocate_arms(moving_);
   impact_pass_.begin(order_.impacts(), active_, rows_.size(), kinematic_.size(), *blocks_);
   energy_guard_.collect(step, order_.manifolds(), active_, joint_solver_.joined(),
-                        joint_solver_.carried(), bodies, contacts);
+                        joint_solver_.driven(), bodies, contacts);
   Stages(*this, step, bodies, contacts, joints).run();
   const Vec3 from_joints_Ns = joint_solver_.finish(bodies, joints);
   return {blocks_->outside_impulse_Ns() + from_joints_Ns, blocks_->work(),
@@ -386,7 +410,7 @@ void ContactSolver::make_blocks() {
     blocks_->add(order_.begin(color, false), order_.count(color, false), split);
     const std::uint32_t count = blocks_->size() - first;
     if (count == 0) continue;
-    // Colours of a grain each are one thread's, one after the other.
+    // Consecutive colours of less than a grain each run in one thread.
     const bool narrow = count <= grain && !split;
     if (narrow && was_narrow) {
       colors_.back().grain = colors_.back().count += count;
@@ -398,12 +422,12 @@ void ContactSolver::make_blocks() {
 }
 
 void ContactSolver::collect_bodies(const Bodies& bodies) {
-  take_kinematic(bodies, {kinematic_, kinematic_rows_, rows_, root_W_});
+  load_kinematic_rows(bodies, {kinematic_, kinematic_rows_, rows_, root_W_});
   spins_.resize(static_cast<std::uint32_t>(bodies.size()));
   active_.clear();
-  flying_.clear();
+  free_bodies_.clear();
   for (const BodySlot body : bodies.slots())
-    if (bodies.awake(body)) (order_.in_contact()[body] ? active_ : flying_).push_back(body);
+    if (bodies.awake(body)) (order_.in_contact()[body] ? active_ : free_bodies_).push_back(body);
 }
 
 }  // namespace sunder::solver

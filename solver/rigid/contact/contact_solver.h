@@ -1,5 +1,6 @@
-// Solves the contacts and joints of a step: coloured projected Gauss-Seidel in soft substeps, mass
-// splitting for what finds no colour. Read first: plan() in contact_solver.cpp, the list of stages.
+// Solves the contacts and joints of a step: coloured projected Gauss-Seidel in soft substeps, with
+// mass splitting for manifolds without a colour. Read first: plan() in contact_solver.cpp, the list
+// of stages.
 #pragma once
 
 #include <cstdint>
@@ -20,29 +21,30 @@
 
 namespace sunder::solver {
 
-/// What a solve did to bodies in contact.
+/// Results of a solve for bodies in contact.
 struct ContactSolveReport {
-  Vec3 outside_impulse_Ns = Vec3::Zero();  ///< On bodies, from what cannot move.
+  Vec3 outside_impulse_Ns = Vec3::Zero();  ///< Impulse on bodies from those that cannot move.
   ContactWork work;
   std::uint32_t manifolds = 0;
   std::uint32_t points = 0;
-  bool joints = false;  ///< Joints took part.
+  bool joints = false;  ///< True if joints took part.
 };
 
-/// How contacts are solved.
+/// Options of the contact solver.
 struct ContactSolverOptions {
-  int sweeps = 1;  ///< Of either kind in a substep.
-  bool accelerated =
-      false;      ///< Sweeps go by conjugate gradients: nncg.h. Not where bodies are split.
-  int lanes = 0;  ///< Most to be used; 0: what the processor has. The same bits for any.
+  int sweeps = 1;  ///< Number of biased sweeps, and of relaxed sweeps, per substep.
+  /// Accelerates sweeps by conjugate gradients (nncg.h), unless bodies are split.
+  bool accelerated = false;
+  /// Maximum number of lanes; 0: as many as the processor has. Same bits for any number.
+  int lanes = 0;
 };
 
 class ContactSolver {
  public:
   explicit ContactSolver(const ContactSolverOptions& options = {});
 
-  /// Moves every awake body by the step: those in contact by substeps, the others by free flight.
-  /// Joints that bear too much go.
+  /// Moves each awake body by the step: those in contact in substeps, others by free flight.
+  /// Removes joints that break.
   ContactSolveReport solve(const StepContext& step, Bodies& bodies, Contacts& contacts,
                            Joints& joints);
 
@@ -58,16 +60,17 @@ class ContactSolver {
   EnergyGuard energy_guard_;
   ImpactPass impact_pass_;
   std::unique_ptr<ContactBlocks> blocks_;
-  std::vector<StageItems> colors_;   ///< Where each colour's blocks are; what is split last.
-  std::vector<BodySlot> active_;     ///< Awake bodies in contact, or held by a joint.
-  std::vector<BodySlot> flying_;     ///< Awake bodies that touch nothing.
-  std::vector<BodySlot> kinematic_;  ///< Those on their way.
-  std::vector<BodyRow> rows_;        ///< From that of the last of these on: see row_of().
+  std::vector<StageItems> colors_;     ///< Blocks of each colour; split blocks are last.
+  std::vector<BodySlot> active_;       ///< Awake bodies in contact or in a joint.
+  std::vector<BodySlot> free_bodies_;  ///< Awake bodies without contacts.
+  std::vector<BodySlot> kinematic_;    ///< Moving kinematic bodies.
+  std::vector<BodyRow> rows_;          ///< Rows by row_of(), after those of kinematic bodies.
   ByBody<std::int32_t> kinematic_rows_;
   ByBody<Mat3f> root_W_;
   Spins spins_;
-  bool moving_ = false;        ///< Some body in contact moves: arms follow.
-  std::vector<float> energy_;  ///< Of a sweep's changes, by manifold; none: sweeps go plainly.
+  bool moving_ = false;  ///< True if a body in contact moves, so that lever arms are updated.
+  /// Energy of a sweep's changes, by manifold; empty: no conjugate gradients.
+  std::vector<float> energy_;
 };
 
 }  // namespace sunder::solver

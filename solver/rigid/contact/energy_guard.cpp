@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "engine/base/disjoint_sets.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr double kEnergyRounding = 1e-6;  // of the energy that moved to and fro
+constexpr double kEnergyRounding = 1e-6;  // of the energy exchanged
 constexpr double kShareRounding = 1 - 1e-6;
 
 double lanes_sum(const Wide& a, const Wide& b, double linear) {
@@ -24,60 +24,60 @@ double lanes_sum(const Wide& a, const Wide& b, double linear) {
 
 void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
                           std::span<const BodySlot> active, std::span<const Pair> joined,
-                          std::span<const BodySlot> carried, const Bodies& bodies,
+                          std::span<const BodySlot> driven, const Bodies& bodies,
                           const Contacts& contacts) {
-  const double slow_m_s = 2 * kSlowFalls * step.fall_m_s;
-  watches_ = kGuards && std::ranges::any_of(active, [&](BodySlot body) {
-               return bodies.fastest_m_s(body) > slow_m_s;
-             });
-  if (!watches_) return;
+  const double slow_m_s = kGuardedSpeed * step.fall_m_s;
+  is_active_ = kGuardsEnergy && std::ranges::any_of(active, [&](BodySlot body) {
+                 return bodies.fastest_m_s(body) > slow_m_s;
+               });
+  if (!is_active_) return;
   DisjointSets groups(bodies.size());
-  falls_.assign(bodies.size(), 1);
+  in_free_fall_.assign(bodies.size(), 1);
   const auto join = [&](BodySlot a, BodySlot b) {
     const bool a_moves = !a.none() && bodies.awake(a), b_moves = !b.none() && bodies.awake(b);
     if (a_moves && b_moves) groups.join(a.value, b.value);
-    if (a_moves && !b_moves) falls_[a] = 0;
-    if (b_moves && !a_moves) falls_[b] = 0;
+    if (a_moves && !b_moves) in_free_fall_[a] = 0;
+    if (b_moves && !a_moves) in_free_fall_[b] = 0;
   };
   for (const ManifoldSlot i : manifolds)
     join(contacts.manifolds[i].body_a, contacts.manifolds[i].body_b);
   for (const auto& [a, b] : joined) join(a, b);
   group_.resize(bodies.size());
   for (const BodySlot body : bodies.slots()) group_[body] = BodySlot(groups.root(body.value));
-  leave_alone_what_is_carried(manifolds, carried, active, bodies, contacts);
+  exclude_driven(manifolds, driven, active, bodies, contacts);
   for (const BodySlot body : active)
-    if (!falls_[body] && !group_[body].none()) falls_[group_[body]] = 0;
+    if (!in_free_fall_[body] && !group_[body].none()) in_free_fall_[group_[body]] = 0;
   for (const BodySlot body : active)
-    if (!group_[body].none()) falls_[body] = falls_[group_[body]];
-  if (!joined.empty()) leave_alone_what_swings_free(manifolds, active, joined, contacts);
+    if (!group_[body].none()) in_free_fall_[body] = in_free_fall_[group_[body]];
+  if (!joined.empty()) exclude_free_hanging(manifolds, active, joined, contacts);
   of_body_.assign(bodies.size(), {});
   of_group_.assign(bodies.size(), {});
-  share_.assign(bodies.size() + 1, 1);
+  scale_.assign(bodies.size() + 1, 1);
 }
 
-/// Kinematic bodies do work on what they touch, and on what hangs on them.
-void EnergyGuard::leave_alone_what_is_carried(std::span<const ManifoldSlot> manifolds,
-                                              std::span<const BodySlot> by_joints,
-                                              std::span<const BodySlot> active,
-                                              const Bodies& bodies, const Contacts& contacts) {
-  ByBody<std::uint8_t> carried(bodies.size());
+/// Excludes groups that kinematic bodies do work on, by contacts or joints.
+void EnergyGuard::exclude_driven(std::span<const ManifoldSlot> manifolds,
+                                 std::span<const BodySlot> by_joints,
+                                 std::span<const BodySlot> active, const Bodies& bodies,
+                                 const Contacts& contacts) {
+  ByBody<std::uint8_t> driven(bodies.size());
   bool any = false;
-  for (const BodySlot body : by_joints) carried[group_[body]] = any = true;
+  for (const BodySlot body : by_joints) driven[group_[body]] = any = true;
   for (const ManifoldSlot i : manifolds) {
     const Manifold& m = contacts.manifolds[i];
-    if (bodies.carries(m.body_a)) carried[group_[m.body_b]] = any = true;
-    if (bodies.carries(m.body_b)) carried[group_[m.body_a]] = any = true;
+    if (bodies.is_moving_kinematic(m.body_a)) driven[group_[m.body_b]] = any = true;
+    if (bodies.is_moving_kinematic(m.body_b)) driven[group_[m.body_a]] = any = true;
   }
   if (!any) return;
   for (const BodySlot body : active)
-    if (carried[group_[body]]) group_[body] = {};
+    if (driven[group_[body]]) group_[body] = {};
 }
 
-/// Joints alone keep energy as well as their substeps do, and would only lose by this.
-void EnergyGuard::leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,
-                                               std::span<const BodySlot> active,
-                                               std::span<const Pair> joined,
-                                               const Contacts& contacts) {
+/// Excludes groups that touch nothing and hang in joints: joints keep their energy as well as their
+/// substeps do, and a guard would only take some.
+void EnergyGuard::exclude_free_hanging(std::span<const ManifoldSlot> manifolds,
+                                       std::span<const BodySlot> active,
+                                       std::span<const Pair> joined, const Contacts& contacts) {
   ByBody<std::uint8_t> free(group_.size());
   const auto mark = [&](BodySlot body, bool is_free) {
     if (!group_[body].none()) free[group_[body]] = is_free;
@@ -90,21 +90,21 @@ void EnergyGuard::leave_alone_what_swings_free(std::span<const ManifoldSlot> man
     if (!group_[body].none() && free[group_[body]]) group_[body] = {};
 }
 
-void EnergyGuard::weigh_base(BodySlot body, float inverse_mass, const BodyRow& row) {
-  of_body_[body].struck_J = -0.5 * lanes_sum(row.base, row.base, 1 / double{inverse_mass});
+void EnergyGuard::record_energy_before(BodySlot body, float inverse_mass, const BodyRow& row) {
+  of_body_[body].restitution_J = -0.5 * lanes_sum(row.base, row.base, 1 / double{inverse_mass});
 }
 
-void EnergyGuard::weigh(BodySlot body, float inverse_mass, const BodyRow& row) {
+void EnergyGuard::record_impulse_work(BodySlot body, float inverse_mass, const BodyRow& row) {
   const Wide change = row.velocity - row.base;
   const double mass = 1 / double{inverse_mass};
   Work& work = of_body_[body];
   work.first = lanes_sum(change, row.base, mass);
   work.second = 0.5 * lanes_sum(change, change, mass);
-  work.struck_J += 0.5 * lanes_sum(row.base, row.base, mass);
+  work.restitution_J += 0.5 * lanes_sum(row.base, row.base, mass);
 }
 
-void EnergyGuard::judge(std::span<const BodySlot> active) {
-  objects_ = false;
+void EnergyGuard::find_impulse_scales(std::span<const BodySlot> active) {
+  needs_scaling_ = false;
   for (const BodySlot body : active)
     if (!group_[body].none()) of_group_[group_[body]].first = of_group_[group_[body]].second = 0;
   for (const BodySlot body : active) {
@@ -112,43 +112,44 @@ void EnergyGuard::judge(std::span<const BodySlot> active) {
     Work& work = of_group_[group_[body]];
     work.first += of_body_[body].first;
     work.second += of_body_[body].second;
-    work.made_J += of_body_[body].struck_J;
+    work.gained_J += of_body_[body].restitution_J;
   }
   for (const BodySlot body : active) {
-    float& share = share_[row_of(body)];
+    float& share = scale_[row_of(body)];
     share = 1;
     if (group_[body].none()) continue;
     Work& work = of_group_[group_[body]];
     if (work.first + work.second > kEnergyRounding * work.second) {
       share = static_cast<float>(std::max(0.0, -kShareRounding * work.first / work.second));
-      objects_ = true;
+      needs_scaling_ = true;
     } else if (group_[body] == body) {
-      work.made_J += work.first + work.second;
+      work.gained_J += work.first + work.second;
     }
     Work& own = of_body_[body];
-    own.made_J += own.struck_J + double{share} * (own.first + double{share} * own.second);
+    own.gained_J += own.restitution_J + double{share} * (own.first + double{share} * own.second);
   }
 }
 
-void EnergyGuard::ask(BodySlot body, double made_J, float inverse_mass, const BodyRow& row) {
+void EnergyGuard::request_rotation_energy(BodySlot body, double gained_J, float inverse_mass,
+                                          const BodyRow& row) {
   const double mass = 1 / double{inverse_mass};
   const auto energy = [&](const Wide& v, double linear) { return 0.5 * lanes_sum(v, v, linear); };
   const double motion_J = std::max(energy(row.start, mass), energy(row.velocity, mass));
-  const double own_J = std::max(-of_body_[body].made_J, motion_J - energy(row.velocity, 0));
-  of_body_[body].asked_J =
-      made_J <= own_J ? std::max(0.0, made_J) : std::numeric_limits<double>::infinity();
+  const double own_J = std::max(-of_body_[body].gained_J, motion_J - energy(row.velocity, 0));
+  of_body_[body].requested_J =
+      gained_J <= own_J ? std::max(0.0, gained_J) : std::numeric_limits<double>::infinity();
 }
 
-void EnergyGuard::decide(std::span<const BodySlot> active) {
-  if (!watches_) return;
+void EnergyGuard::sum_requests(std::span<const BodySlot> active) {
+  if (!is_active_) return;
   for (const BodySlot body : active)
-    if (!group_[body].none() && std::isfinite(of_body_[body].asked_J))
-      of_group_[group_[body]].made_J += of_body_[body].asked_J;
+    if (!group_[body].none() && std::isfinite(of_body_[body].requested_J))
+      of_group_[group_[body]].gained_J += of_body_[body].requested_J;
 }
 
-bool EnergyGuard::grants(BodySlot body) const {
-  if (!watches_ || group_[body].none() || of_body_[body].asked_J <= 0) return true;
-  return std::isfinite(of_body_[body].asked_J) && of_group_[group_[body]].made_J <= 0;
+bool EnergyGuard::may_keep_angular_momentum(BodySlot body) const {
+  if (!is_active_ || group_[body].none() || of_body_[body].requested_J <= 0) return true;
+  return std::isfinite(of_body_[body].requested_J) && of_group_[group_[body]].gained_J <= 0;
 }
 
 }  // namespace sunder::solver

@@ -1,5 +1,6 @@
-// Contacts take kinetic energy or leave it, but the few sweeps of a substep may make some. Here the
-// bodies that touch each other, group by group, are held to what they had: see docs/decisions/029.
+// Energy guard. Contacts never increase kinetic energy, but the few sweeps of a substep may do so.
+// The guard scales the impulses of each group of touching bodies so that the group's energy does
+// not rise: docs/decisions/029.
 #pragma once
 
 #include <cstdint>
@@ -18,59 +19,63 @@ class EnergyGuard {
  public:
   using Pair = std::pair<BodySlot, BodySlot>;
 
-  /// Groups the awake bodies of these manifolds, and of these pairs in joints. What hangs in joints
-  /// and touches nothing is left alone, and so is what kinematic bodies do work on, by contacts or,
-  /// if it is `carried`, by joints; where nothing moves fast, all are.
+  /// Groups the awake bodies of these manifolds and jointed pairs. Excludes bodies that hang in
+  /// joints and touch nothing, and groups that kinematic bodies do work on, by contacts or, for
+  /// bodies in `driven`, by joints. Excludes all if no body is fast.
   void collect(const StepContext& step, std::span<const ManifoldSlot> manifolds,
                std::span<const BodySlot> active, std::span<const Pair> joined,
-               std::span<const BodySlot> carried, const Bodies& bodies, const Contacts& contacts);
-  /// Whether any group is watched in this step.
-  bool watches() const { return watches_; }
+               std::span<const BodySlot> driven, const Bodies& bodies, const Contacts& contacts);
+  /// True if the guard is active in this step.
+  bool is_active() const { return is_active_; }
 
-  /// Whether it is in free fall, with all that it touches.
-  bool falls(BodySlot body) const { return falls_[body] != 0; }
-  /// Before the strikes of a substep.
-  void weigh_base(BodySlot body, float inverse_mass, const BodyRow& row);
-  /// What strikes, and the other impulses of a substep, did to the energy of a body.
-  void weigh(BodySlot body, float inverse_mass, const BodyRow& row);
-  /// Finds the shares of their impulses that groups may keep so that their energy is not more than
-  /// it was before.
-  void judge(std::span<const BodySlot> active);
-  /// Whether some group has to give some of its impulses back.
-  bool objects() const { return objects_; }
-  /// Of the impulses on a body; as row_of().
-  const float* share_of_row() const { return share_.data(); }
+  /// True if the body is in free fall with all bodies that it touches.
+  bool is_in_free_fall(BodySlot body) const { return in_free_fall_[body] != 0; }
+  /// Records the energy of a body before the restitution impulses of a substep.
+  void record_energy_before(BodySlot body, float inverse_mass, const BodyRow& row);
+  /// Records the work of the restitution impulses and of the other impulses of a substep on a body.
+  void record_impulse_work(BodySlot body, float inverse_mass, const BodyRow& row);
+  /// Finds the factors of their impulses with which the energy of groups is not above that before.
+  void find_impulse_scales(std::span<const BodySlot> active);
+  /// True if the impulses of some group must be scaled.
+  bool needs_scaling() const { return needs_scaling_; }
+  /// Scale of the impulses on a body, by row_of().
+  const float* scale_of_row() const { return scale_.data(); }
 
-  /// After the last substep: a body turns on with its angular momentum, which adds this to its
-  /// energy; or else with its energy. It may ask for what contacts took from itself, and for a spin
-  /// of no more energy than its whole motion had or has.
-  void ask(BodySlot body, double made_J, float inverse_mass, const BodyRow& row);
-  void decide(std::span<const BodySlot> active);
-  /// Whether its group can pay that, and what others of it ask, with what its contacts took.
-  bool grants(BodySlot body) const;
+  /// Requests energy for a body, after the last substep: keeping its angular momentum would add
+  /// `gained_J`, otherwise it keeps its energy. The request is refused unless `gained_J` is at most
+  /// the energy that contacts took from the body, or the rotation would then have at most the
+  /// energy of the whole motion, now or when the step began.
+  void request_rotation_energy(BodySlot body, double gained_J, float inverse_mass,
+                               const BodyRow& row);
+  /// Adds up the requests of each group.
+  void sum_requests(std::span<const BodySlot> active);
+  /// True if the body may keep its angular momentum: the energy that contacts took from its group
+  /// covers all requests of the group.
+  bool may_keep_angular_momentum(BodySlot body) const;
 
  private:
-  /// Energy of a share s of the impulses: s·first + s²·second.
+  /// Work of a scale s of the impulses: s·first + s²·second.
   struct Work {
     double first = 0, second = 0;
-    double struck_J = 0;  ///< By strikes, in the substep.
-    double made_J = 0;    ///< Of a group, or of a body by contacts: in the step so far.
-    double asked_J = 0;   ///< Infinite: too much.
+    double restitution_J = 0;  ///< Work of restitution in the substep.
+    /// Energy gained in the step so far, of a group, or of a body by contacts.
+    double gained_J = 0;
+    double requested_J = 0;  ///< Requested energy; infinite: too much.
   };
 
-  void leave_alone_what_is_carried(std::span<const ManifoldSlot> manifolds,
-                                   std::span<const BodySlot> by_joints,
-                                   std::span<const BodySlot> active, const Bodies& bodies,
-                                   const Contacts& contacts);
-  void leave_alone_what_swings_free(std::span<const ManifoldSlot> manifolds,
-                                    std::span<const BodySlot> active, std::span<const Pair> joined,
-                                    const Contacts& contacts);
+  void exclude_driven(std::span<const ManifoldSlot> manifolds, std::span<const BodySlot> by_joints,
+                      std::span<const BodySlot> active, const Bodies& bodies,
+                      const Contacts& contacts);
+  void exclude_free_hanging(std::span<const ManifoldSlot> manifolds,
+                            std::span<const BodySlot> active, std::span<const Pair> joined,
+                            const Contacts& contacts);
 
-  bool watches_ = false, objects_ = false;
-  ByBody<BodySlot> group_;  ///< Of awake bodies in contact, by its least; none: not watched.
-  ByBody<std::uint8_t> falls_;
+  bool is_active_ = false, needs_scaling_ = false;
+  /// Group of an awake body in contact, by its lowest body; none: excluded.
+  ByBody<BodySlot> group_;
+  ByBody<std::uint8_t> in_free_fall_;
   ByBody<Work> of_body_, of_group_;
-  std::vector<float> share_;
+  std::vector<float> scale_;
 };
 
 }  // namespace sunder::solver

@@ -6,7 +6,7 @@ namespace sunder::solver {
 namespace {
 
 constexpr float kOverRelaxed = 1.75f;  // best for a row of 22 (Young 1954): 2 / (1 + sin(π / 23))
-constexpr int kMostWork = 150000;      // sweeps of a manifold in a substep
+constexpr int kMostWork = 150000;      // maximum of sweeps times manifolds in a substep
 
 }  // namespace
 
@@ -25,9 +25,9 @@ void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manif
 void ImpactPass::begin(const Impacts& impacts, std::span<const BodySlot> active, std::size_t rows,
                        std::size_t kinematic, ContactBlocks& blocks) {
   if (empty()) return;
-  blocks.expect_impacts(colors_.back().manifold + colors_.back().manifolds);
+  blocks.allocate_impacts(colors_.back().manifold + colors_.back().manifolds);
   for (const BodySlot body : active)
-    if (impacts.moves(body)) bodies_.push_back(body);
+    if (impacts.may_move(body)) bodies_.push_back(body);
   velocity_.resize(bodies_.size());
   moved_.resize(rows);
   kinematic_ = kinematic;
@@ -38,16 +38,16 @@ void ImpactPass::prepare(const ContactStep& step, ContactBlocks& blocks) const {
 }
 
 void ImpactPass::run(const ContactStep& step, ContactBlocks& blocks) {
-  set_aside(step.rows.rows);
-  bool meet = false;
-  for_blocks([&](auto first, auto end) { meet |= blocks.meet(first, end, step); });
-  if (meet) {
-    for_blocks([&](auto first, auto end) { blocks.begin_impact(first, end); });
+  subtract_impulses(step.rows.rows);
+  bool any_impact = false;
+  for_blocks([&](auto first, auto end) { any_impact |= blocks.find_gaps(first, end, step); });
+  if (any_impact) {
+    for_blocks([&](auto first, auto end) { blocks.extract_contacts(first, end); });
     sweep(step, blocks);
-    take_back(step.rows.rows);  // what many sweeps round off would add up
-    for_blocks([&](auto first, auto end) { blocks.end_impact(first, end, step); });
+    restore_velocities(step.rows.rows);  // removes the rounding errors of many sweeps
+    for_blocks([&](auto first, auto end) { blocks.apply_propagation(first, end, step); });
   }
-  put_back(step.rows.rows);
+  add_impulses(step.rows.rows);
 }
 
 void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
@@ -57,18 +57,18 @@ void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
     ++sweep.now;
     bool closes = false;
     for (const Color& color : colors_)
-      closes |= blocks.pass_on(color.manifold, color.manifolds, with, sweep);
+      closes |= blocks.propagate(color.manifold, color.manifolds, with, sweep);
     return closes;
   };
   ContactStep over_relaxed = step;
   over_relaxed.soft.omega = kOverRelaxed;
   const int most = std::min(kMostSweeps, kMostWork / manifolds_);
   for (int i = 1; i < most && once(over_relaxed); ++i) sweep.since = sweep.now;
-  sweep.since = std::min<std::uint8_t>(sweep.now, 1);  // all that an impact reached
-  once(step), once(step);  // friction goes by the load of the sweep before
+  sweep.since = std::min<std::uint8_t>(sweep.now, 1);  // all bodies that an impact reached
+  once(step), once(step);  // friction uses the normal impulses of the previous sweep
 }
 
-void ImpactPass::set_aside(BodyRow* rows) {
+void ImpactPass::subtract_impulses(BodyRow* rows) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyRow& r = rows[row_of(bodies_[i])];
     velocity_[i] = r.velocity;
@@ -76,11 +76,11 @@ void ImpactPass::set_aside(BodyRow* rows) {
   }
 }
 
-void ImpactPass::take_back(BodyRow* rows) const {
+void ImpactPass::restore_velocities(BodyRow* rows) const {
   for (const BodySlot body : bodies_) rows[row_of(body)].velocity = rows[row_of(body)].base;
 }
 
-void ImpactPass::put_back(BodyRow* rows) const {
+void ImpactPass::add_impulses(BodyRow* rows) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyRow& r = rows[row_of(bodies_[i])];
     const Wide passed = r.velocity - r.base;

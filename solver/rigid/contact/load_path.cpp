@@ -1,16 +1,16 @@
-// Read first: follow_loads().
+// Read first: distribute_loads().
 #include "solver/rigid/contact/load_path.h"
 
 #include <algorithm>
 
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-/// A body and a manifold that it stands on.
+/// A body and a manifold that supports it.
 struct Support {
-  double height_m;  ///< Of the body.
+  double height_m;  ///< Height of the body.
   BodySlot body, below;
   ManifoldSlot manifold;
 };
@@ -21,7 +21,7 @@ std::vector<Support> find_supports(const Vec3& up, std::span<const ManifoldSlot>
   for (const ManifoldSlot i : manifolds) {
     const Manifold& m = contacts.manifolds[i];
     const float slope = m.normal_W.dot(up.cast<float>());
-    if (std::abs(slope) < kLeastSlope) continue;
+    if (std::abs(slope) < kMinSupportCosine) continue;
     const BodySlot body = slope > 0 ? m.body_b : m.body_a;
     const BodySlot below = slope > 0 ? m.body_a : m.body_b;
     if (bodies.awake(body)) supports.push_back({up.dot(bodies.position[body]), body, below, i});
@@ -42,17 +42,18 @@ struct Share {
   float vertical = 0;
 };
 
-/// Impulses along the vertical at the shares that bear `weight` with this `moment` (about the
-/// two axes across): the least in squares, those that would pull left out.
-void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float weight,
-           const Vec3f& moment, std::vector<Share>& shares) {
-  float longest = 0;  // arms are measured by it
+/// Finds the vertical impulses at `shares` that have the sum `weight` and a `moment` about the two
+/// horizontal axes, with least squares; negative ones are set to 0.
+void find_vertical_impulses(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2,
+                            float weight, const Vec3f& moment, std::vector<Share>& shares) {
+  float longest = 0;  // unit of the arms
   for (const Share& s : shares) longest = std::max(longest, s.arm.norm());
   const float inverse = longest > 0 ? 1 / longest : 0;
   auto row = [&](const Share& s) {
     return Vec3f(1, inverse * s.arm.dot(across_1), inverse * s.arm.dot(across_2));
   };
-  // A push along `up` at x·across_1 + y·across_2 turns by x·(across_1 × up) + y·(across_2 × up).
+  // An impulse along `up` at x·across_1 + y·across_2 has the moment x·(across_1 × up) + y·(across_2
+  // × up).
   const Vec3f wanted(weight, inverse * moment.dot(across_1.cross(up)),
                      inverse * moment.dot(across_2.cross(up)));
   Mat3f normal = Mat3f::Zero();
@@ -67,8 +68,9 @@ void carry(const Vec3f& up, const Vec3f& across_1, const Vec3f& across_2, float 
 
 }  // namespace
 
-void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds, float kept_scale,
-                  const Bodies& bodies, ByBody<BodyLoad>& loads, Contacts& contacts) {
+void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                      float kept_scale, const Bodies& bodies, ByBody<BodyImpulse>& loads,
+                      Contacts& contacts) {
   if (gravity_W.isZero(0)) return;
   const Vec3 up_W = -gravity_W.normalized();
   const Vec3f up = up_W.cast<float>();
@@ -95,7 +97,7 @@ void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds
     }
     const float weight = -loads[body].impulse_W.dot(up);
     if (shares.empty() || weight <= 0) continue;
-    carry(up, across_1, across_2, weight, -loads[body].angular_impulse_W, shares);
+    find_vertical_impulses(up, across_1, across_2, weight, -loads[body].angular_impulse_W, shares);
     for (const Share& s : shares) {
       const float slope = std::abs(s.manifold->normal_W.dot(up));
       s.manifold->points[s.point].impulse_Ns = kept_scale * s.vertical / slope;
@@ -105,8 +107,9 @@ void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds
   }
 }
 
-void release_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
-                   const Bodies& bodies, const Contacts& contacts, ByBody<BodyLoad>& loads) {
+void mark_unsupported_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                            const Bodies& bodies, const Contacts& contacts,
+                            ByBody<BodyImpulse>& loads) {
   if (gravity_W.isZero(0)) return;
   const std::vector<Support> supports =
       find_supports(-gravity_W.normalized(), manifolds, bodies, contacts);

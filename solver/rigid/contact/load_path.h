@@ -1,5 +1,5 @@
-// What touching bodies at rest have to bear, estimated in one pass from the top down: each hands
-// its weight, and what lies on it, to what it stands on.
+// Estimates the loads of touching bodies at rest, in one pass from the top down: each body passes
+// its weight, and the loads from above, to the bodies below it.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,22 @@
 
 namespace sunder::solver {
 
-/// What a body has to hand down.
-struct BodyLoad {
+/// Impulse that a body passes to the bodies below it.
+struct BodyImpulse {
   Vec3f impulse_W = Vec3f::Zero();
-  Vec3f angular_impulse_W = Vec3f::Zero();  ///< About its centre.
-  bool supported = false;                   ///< By what cannot move, through others or not.
+  Vec3f angular_impulse_W = Vec3f::Zero();  ///< About the centre of mass.
+  bool supported = false;  ///< True if supported by an immovable body, directly or through others.
 };
 
-/// Gives the points of `manifolds` the impulses (times `kept_scale`) that hand `loads` down to what
-/// cannot move. What nothing supports hands down nothing.
-void follow_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds, float kept_scale,
-                  const Bodies& bodies, ByBody<BodyLoad>& loads, Contacts& contacts);
+/// Sets the impulses of the points of `manifolds` (times `kept_scale`) that pass `loads` down to
+/// immovable bodies. A body without support passes no load.
+void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                      float kept_scale, const Bodies& bodies, ByBody<BodyImpulse>& loads,
+                      Contacts& contacts);
 
-/// Bodies that stand on one that is not supported are not supported either.
-void release_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
-                   const Bodies& bodies, const Contacts& contacts, ByBody<BodyLoad>& loads);
+/// Marks bodies on an unsupported body as unsupported.
+void mark_unsupported_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
+                            const Bodies& bodies, const Contacts& contacts,
+                            ByBody<BodyImpulse>& loads);
 
 }  // namespace sunder::solver

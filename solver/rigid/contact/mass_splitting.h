@@ -1,6 +1,6 @@
-// Mass splitting: manifolds that found no colour are solved side by side, each with a part of its
-// bodies to itself, and what they do to a body is summed in the order of its parts. How a part
-// moves: constraint_block.h.
+// Mass splitting: manifolds without a colour are solved in parallel, each with its own part of its
+// bodies. The changes of a body's parts are summed in the order of the parts. For the motion of a
+// part see constraint_block.h.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace sunder::solver {
 
-/// Where a split manifold's changes of its bodies go, and into how many parts those are cut.
+/// Part of each body that a split manifold changes, and number of parts of the body.
 struct SplitSides {
   std::uint32_t part_a = 0, part_b = 0;
   std::uint32_t parts_a = 1, parts_b = 1;
@@ -21,22 +21,22 @@ struct SplitSides {
 
 class MassSplitting {
  public:
-  /// Cuts awake bodies into as many parts as they have of these manifolds, in the order of these.
+  /// Splits each awake body into one part per manifold, in the order of the manifolds.
   void split(std::span<const ManifoldSlot> manifolds, const Bodies& bodies,
              const Contacts& contacts);
-  /// Nothing is split.
+  /// True if nothing is split.
   bool empty() const { return sides_.empty(); }
-  /// As the manifolds.
+  /// Sides by manifold.
   std::span<const SplitSides> sides() const { return sides_; }
-  /// What the parts did; for sweeps to write to.
+  /// Changes of the parts, which sweeps write.
   Wide* parts() { return parts_.data(); }
-  /// Adds what a body's parts did since they were last written.
+  /// Adds the changes of a body's parts to its row.
   void join(BodySlot body, BodyRow& row) const;
 
  private:
   std::vector<SplitSides> sides_;
-  ByBody<std::uint32_t> count_;  ///< Of its parts.
-  ByBody<std::uint32_t> end_;    ///< Of its parts in `parts_`.
+  ByBody<std::uint32_t> count_;  ///< Number of parts.
+  ByBody<std::uint32_t> end_;    ///< End of a body's parts in `parts_`.
   std::vector<Wide> parts_;
 };
 

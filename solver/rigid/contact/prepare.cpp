@@ -1,5 +1,5 @@
-// Gathers manifolds into lanes and hands them back: what is done one by one. The arithmetic between
-// is in derive_kernels.h.
+// Gathers manifolds into lanes and stores the results in manifolds: the scalar part. The arithmetic
+// on lanes is in derive_kernels.h.
 #include "solver/rigid/contact/prepare.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "solver/base/lanes.h"
 #include "solver/rigid/collide/impacts.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -28,25 +28,27 @@ void gather_bodies(const ContactStep& step, const Manifold& m, std::uint32_t lan
   const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
   c.row_a[lane] = step.row(m.body_a);
   c.row_b[lane] = step.row(m.body_b);
-  const bool goes_a = c.row_a[lane] != 0, goes_b = c.row_b[lane] != 0;
+  const bool moves_a = c.row_a[lane] != 0, moves_b = c.row_b[lane] != 0;
   c.inverse_mass_a[lane] = bodies.inverse_mass[m.body_a];
   c.inverse_mass_b[lane] = bodies.inverse_mass[m.body_b];
-  // A sleeper has its mass until derive() takes it out: see sleep.h.
+  // A sleeping body has its mass until derive() removes it: see sleep.h.
   const bool sleeps_a = !a && bodies.dynamic(m.body_a), sleeps_b = !b && bodies.dynamic(m.body_b);
   g.sleepers = g.sleepers || sleeps_a || sleeps_b;
-  g.awake_a[lane] = goes_a ? 1 : 0, g.awake_b[lane] = goes_b ? 1 : 0;
-  if (goes_a || sleeps_a)
-    set_columns(g.root_a, lane, goes_a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
-  if (goes_b || sleeps_b)
-    set_columns(g.root_b, lane, goes_b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
+  g.awake_a[lane] = moves_a ? 1 : 0, g.awake_b[lane] = moves_b ? 1 : 0;
+  if (moves_a || sleeps_a)
+    set_columns(g.root_a, lane, moves_a ? step.root_W[m.body_a] : root_now(bodies, m.body_a));
+  if (moves_b || sleeps_b)
+    set_columns(g.root_b, lane, moves_b ? step.root_W[m.body_b] : root_now(bodies, m.body_b));
   c.outside_sign[lane] = (a ? 0.f : 1.f) - (b ? 0.f : 1.f);
   set_lane(g.offset, lane,
            Vec3f((bodies.position[m.body_b] - bodies.position[m.body_a]).cast<float>()));
   g.share_a[lane] = m.normal_on_b ? 0 : 1;
-  const Vec3 passes = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
-  const Vec3 turns = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
-  const double way_m = (passes.norm() + turns.norm() * double{m.size_m}) * step.context.dt_s;
-  g.meets[lane] = way_m > double{kStill * m.size_m} ? 1 : 0;  // what lies still needs no new arms
+  const Vec3 linear = bodies.velocity[m.body_b] - bodies.velocity[m.body_a];
+  const Vec3 angular = bodies.angular_velocity[m.body_b] - bodies.angular_velocity[m.body_a];
+  const double displacement_m =
+      (linear.norm() + angular.norm() * double{m.size_m}) * step.context.dt_s;
+  g.closes_gap[lane] =
+      displacement_m > double{kArmMotion * m.size_m} ? 1 : 0;  // bodies at rest need no new arms
   set_lane(g.gravity, lane,
            ((b ? 1.f : 0.f) - (a ? 1.f : 0.f)) * step.context.gravity_W.cast<float>());
 }
@@ -55,8 +57,8 @@ float push_m_s(const ContactStep& step, const Manifold& m) {
   return step.soft.push * std::sqrt(m.size_m);
 }
 
-/// The overlap that is pushed apart at the share of speed that a contact has: all that are deep on
-/// a body together part as fast as two would, however many lie in one place.
+/// Returns the maximum overlap that a contact corrects. The deep contacts of a body in a dense
+/// cluster share the correction speed of two, however many shapes overlap there.
 float most_overlap_m(const ContactStep& step, const Manifold& m) {
   if (step.deep_contacts.empty() || !m.deep) return 1e30f;
   const auto of = [&](BodySlot body) {
@@ -65,7 +67,7 @@ float most_overlap_m(const ContactStep& step, const Manifold& m) {
   const std::uint32_t many = std::max(of(m.body_a), of(m.body_b));
   if (many <= 2) return 1e30f;
   const float share = 2 / static_cast<float>(many);
-  return share * push_m_s(step, m) / step.soft.of(m.count).press.rate;
+  return share * push_m_s(step, m) / step.soft.of(m.count).normal.rate;
 }
 
 template <std::uint32_t lanes>
@@ -73,7 +75,7 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
                     ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
   set_lane(c.normal, lane, m.normal_W);
   set_lane(g.drift, lane, m.drift_W);
-  set_lane(g.slide_impulse, lane, step.context.impulse_scale * m.friction_impulse_W);
+  set_lane(g.friction_impulse, lane, step.context.impulse_scale * m.friction_impulse_W);
   set_lane(g.friction_arm_a, lane, m.friction_arm_A);
   set_lane(g.friction_arm_b, lane, m.friction_arm_B);
   if (m.count > 1) c.twist_impulse[lane] = step.context.impulse_scale * m.twist_impulse;
@@ -87,8 +89,9 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
   c.push_m_s[lane] = push_m_s(step, m);
   c.points = std::max<std::uint32_t>(c.points, m.count);
   c.face[lane] = m.count > 2 ? 1 : 0;
-  const Softness& press = step.soft.of(m.count).press;
-  g.press_mass[lane] = press.mass_scale, g.press_give[lane] = press.impulse_scale;
+  const Softness& softness = step.soft.of(m.count).normal;
+  g.normal_mass_scale[lane] = softness.mass_scale,
+  g.normal_impulse_scale[lane] = softness.impulse_scale;
   const float most_overlap = most_overlap_m(step, m);
   for (std::size_t i = 0; i < m.count; ++i) {
     const ManifoldPoint& p = m.points[i];
@@ -111,7 +114,7 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
   GatheredBlock<lanes> g;
   c.rebound.least_m_s = step.rebound_m_s;
   for (std::uint32_t lane = 0; lane < lanes; ++lane)
-    g.parts_a[lane] = g.parts_b[lane] = g.press_mass[lane] = 1;
+    g.parts_a[lane] = g.parts_b[lane] = g.normal_mass_scale[lane] = 1;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const Manifold& m = step.contacts.manifolds[step.manifolds[first + lane]];
     gather_bodies(step, m, lane, c, g);
@@ -130,13 +133,13 @@ void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& c, ArmLanes<
     arms->root_b[k] = g.root_b[k] * g.awake_b;
   }
   arms->share_a = g.share_a;
-  arms->gap = g.gap, arms->bridged = g.bridged;
+  arms->gap = g.gap, arms->closed_gap = g.closed_gap;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     const Manifold& m = step.contacts.manifolds[step.manifolds[first + lane]];
     const float square = m.size_m * m.size_m;
-    arms->wide[lane] = m.round ? 0 : square;
-    arms->near[lane] = kNow * kNow * square;
-    arms->least[lane] = kStill * kStill * square;
+    arms->wide[lane] = m.is_ball_pair ? 0 : square;
+    arms->near[lane] = kNegligible * kNegligible * square;
+    arms->least[lane] = kArmMotion * kArmMotion * square;
   }
 }
 
@@ -150,27 +153,32 @@ void prepare_impact(const ContactStep& step, const ConstraintBlock<lanes>& c,
   }
 }
 
-/// How soft a contact should be for the load it bears, approached from how soft it was.
+/// Returns the compliance for the load of a contact, approached from the compliance before.
 template <std::uint32_t lanes>
 float compliance_now(const ContactStep& step, const ConstraintBlock<lanes>& c, std::uint32_t lane,
                      const Manifold& m) {
-  const float yield_s = step.soft.of(m.count).press.yield_s, most_m = kMostGive * m.size_m;
-  float give_m = 0;
+  const float compliance_s = step.soft.of(m.count).normal.compliance_s,
+              most_m = kStiffeningDepth * m.size_m;
+  float compression_m = 0;
   for (std::uint32_t i = 0; i < c.points; ++i) {
     const float mass = c.point[i].mass[lane], rest_m = std::abs(m.points[i].rest_m);
-    if (mass > 0) give_m = std::max(give_m, yield_s * c.point[i].impulse[lane] / mass - rest_m);
+    if (mass > 0)
+      compression_m =
+          std::max(compression_m, compliance_s * c.point[i].impulse[lane] / mass - rest_m);
   }
   const bool a_is_lighter = step.bodies.inverse_mass[m.body_a] > step.bodies.inverse_mass[m.body_b];
-  const bool pinched = step.loaded_contacts[a_is_lighter ? m.body_a : m.body_b] >= kPinched;
+  const bool pinched = step.loaded_contacts[a_is_lighter ? m.body_a : m.body_b] >= kPinchedContacts;
   const float least =
-      give_m > most_m ? std::max(pinched ? kLeastCompliance : kLeastProp, most_m / give_m) : 1;
+      compression_m > most_m
+          ? std::max(pinched ? kMinPinchedCompliance : kMinCompliance, most_m / compression_m)
+          : 1;
   return std::clamp(least, kComplianceStep * m.compliance_scale,
                     std::min(1.f, m.compliance_scale / kComplianceStep));
 }
 
-/// Share that the last substep has in the mean force of a contact; all of it if it is the first.
-/// The larger body sets the time that the mean remembers: a contact that it lost as it began to
-/// fall must still count when it would fall asleep.
+/// Returns the weight of the last substep in the mean force of a contact; 1 for the first. The
+/// larger body sets the time of the mean: a contact that the body lost as it began to fall must
+/// still count when it would fall asleep.
 float share_in_mean(const ContactStep& step, const Manifold& m) {
   if (m.mean_force_W.isZero(0)) return 1;
   const auto reach_m = [&](BodySlot body) {
@@ -192,7 +200,7 @@ void store_block(const ContactStep& step, const ConstraintBlock<lanes>& c) {
       m.points[i].separation_m = separation[i][lane] + m.points[i].rest_m;
       normal += m.points[i].impulse_Ns;
     }
-    const float s1 = c.slide_impulse_1[lane], s2 = c.slide_impulse_2[lane];
+    const float s1 = c.friction_impulse_1[lane], s2 = c.friction_impulse_2[lane];
     m.friction_impulse_W = s1 * lane_of(c.tangent_1, lane) + s2 * lane_of(c.tangent_2, lane);
     m.twist_impulse = c.twist_impulse[lane];
     if (c.rolls)

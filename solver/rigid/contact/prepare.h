@@ -1,4 +1,4 @@
-// From manifolds to constraint blocks, and back.
+// Conversion between manifolds and constraint blocks.
 #pragma once
 
 #include <span>
@@ -13,21 +13,22 @@
 
 namespace sunder::solver {
 
-/// What the blocks of a step are made from, and what they work on.
+/// Input of the blocks of a step, and the rows that they change.
 struct ContactStep {
   const StepContext& context;
   const Bodies& bodies;
   Contacts& contacts;
-  std::span<const ManifoldSlot> manifolds;  ///< To solve, in the order of blocks.
-  std::uint32_t first_split;                ///< Manifolds from here on are split,
-  std::span<const SplitSides> split;        ///< as this says of each.
-  SpanByBody<const Mat3f> root_W;           ///< Of those awake, and of kinematic ones.
+  std::span<const ManifoldSlot> manifolds;  ///< Manifolds to solve, in the order of blocks.
+  std::uint32_t first_split;                ///< Index of the first split manifold.
+  std::span<const SplitSides> split;        ///< Sides of the split manifolds.
+  SpanByBody<const Mat3f> root_W;           ///< Roots of awake and kinematic bodies.
   SolverRows rows;
   SoftStep soft;
-  float rebound_m_s;                                    ///< Slower impacts do not rebound.
-  SpanByBody<const std::uint32_t> deep_contacts = {};   ///< Empty: there are none.
-  SpanByBody<const std::uint8_t> loaded_contacts = {};  ///< Loaded manifolds, up to kPinched.
-  /// Of kinematic bodies on their way, below 0; of others 0. Empty: there are none.
+  float rebound_m_s;  ///< Closing speed below which a contact does not rebound.
+  SpanByBody<const std::uint32_t> deep_contacts = {};  ///< By body; empty: there are none.
+  /// Number of loaded manifolds by body, at most kPinchedContacts.
+  SpanByBody<const std::uint8_t> loaded_contacts = {};
+  /// Rows of moving kinematic bodies, below 0; 0 for other bodies. Empty: there are none.
   SpanByBody<const std::int32_t> kinematic_rows = {};
 
   std::int32_t row(BodySlot body) const {
@@ -36,19 +37,18 @@ struct ContactStep {
   }
 };
 
-/// Fills everything but `first`, `count` and `split`, which say what goes in; and `arms`,
-/// if they are to follow the bodies.
+/// Sets all of a block except `first`, `count` and `split`, which select its manifolds; and its
+/// `arms`, if they are to follow the bodies.
 template <std::uint32_t lanes>
 void prepare_block(const ContactStep& step, ConstraintBlock<lanes>& block,
                    ArmLanes<lanes>* arms = nullptr);
 
-/// Says of every lane what is no impact.
+/// Sets the minimum closing speed of an impact for each lane.
 template <std::uint32_t lanes>
 void prepare_impact(const ContactStep& step, const ConstraintBlock<lanes>& block,
                     ImpactLanes<lanes>& impact);
 
-/// Hands impulses and final separations back to the manifolds, and lets friction anchors go where
-/// the patch slid.
+/// Stores impulses and final separations in the manifolds, and marks friction anchors that slipped.
 template <std::uint32_t lanes>
 void store_block(const ContactStep& step, const ConstraintBlock<lanes>& block);
 

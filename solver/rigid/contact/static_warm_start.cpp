@@ -1,5 +1,5 @@
-// Read first: StaticWarmStart::apply(). The loads are found by conjugate gradients over the sweeps
-// of the solver itself: see nncg.h.
+// Read first: StaticWarmStart::apply(). The impulses are found by conjugate gradients over the
+// sweeps of the solver: see nncg.h.
 #include "solver/rigid/contact/static_warm_start.h"
 
 #include <algorithm>
@@ -11,57 +11,59 @@
 #include "solver/rigid/contact/kernels/sweep.h"
 #include "solver/rigid/contact/load_path.h"
 #include "solver/rigid/contact/prepare.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::uint32_t kGrain = 8;
 constexpr int kLeastRounds = 4, kMostRounds = 4000;
-constexpr double kWork = 2e5;         // points swept at most, unless there are too many for it
-constexpr double kNearlyDone = 1e-7;  // of the loads' squares: what falls by then will fall
-constexpr int kFirstLook = 32;        // whenever as many rounds again are over: are more in vain?
-constexpr double kDone = 1e-12;       // of the loads' squares, a step's
-constexpr float kNoBounce = 1e30f;    // m/s: nothing is as fast
+constexpr double kMaxWork = 2e5;  // points times rounds at most, unless kLeastRounds are more
+// of the squared impulses: bodies without support by then have none
+constexpr double kNearlyConverged = 1e-7;
+constexpr int kFirstCheck = 32;  // rounds before the first check of convergence; doubled after each
+constexpr double kConverged = 1e-12;  // of the squared impulses, for the change of a round
+constexpr float kNoRebound = 1e30f;   // m/s; no contact rebounds
 
-BlockLoads loads_of(const StaticBlock& c) {
-  BlockLoads loads;
-  for (std::size_t i = 0; i < 4; ++i) loads.press[i] = c.point[i].impulse;
-  loads.slide_1 = c.slide_impulse_1, loads.slide_2 = c.slide_impulse_2;
-  loads.twist = c.twist_impulse;
-  return loads;
+BlockImpulses impulses_of(const StaticBlock& c) {
+  BlockImpulses impulses;
+  for (std::size_t i = 0; i < 4; ++i) impulses.normal[i] = c.point[i].impulse;
+  impulses.friction_1 = c.friction_impulse_1, impulses.friction_2 = c.friction_impulse_2;
+  impulses.twist = c.twist_impulse;
+  return impulses;
 }
 
-void set_loads(const BlockLoads& loads, StaticBlock& c) {
-  for (std::size_t i = 0; i < 4; ++i) c.point[i].impulse = loads.press[i];
-  c.slide_impulse_1 = loads.slide_1, c.slide_impulse_2 = loads.slide_2;
-  c.twist_impulse = loads.twist;
+void set_impulses(const BlockImpulses& impulses, StaticBlock& c) {
+  for (std::size_t i = 0; i < 4; ++i) c.point[i].impulse = impulses.normal[i];
+  c.friction_impulse_1 = impulses.friction_1, c.friction_impulse_2 = impulses.friction_2;
+  c.twist_impulse = impulses.twist;
 }
 
-/// a + s·b.
-BlockLoads sum(const BlockLoads& a, float s, const BlockLoads& b) {
+/// Returns a + s·b.
+BlockImpulses sum(const BlockImpulses& a, float s, const BlockImpulses& b) {
   const Wide4 w = splat<Wide4>(s);
-  BlockLoads loads;
-  for (int i = 0; i < 4; ++i) loads.press[i] = a.press[i] + w * b.press[i];
-  loads.slide_1 = a.slide_1 + w * b.slide_1, loads.slide_2 = a.slide_2 + w * b.slide_2;
-  loads.twist = a.twist + w * b.twist;
-  return loads;
+  BlockImpulses impulses;
+  for (int i = 0; i < 4; ++i) impulses.normal[i] = a.normal[i] + w * b.normal[i];
+  impulses.friction_1 = a.friction_1 + w * b.friction_1,
+  impulses.friction_2 = a.friction_2 + w * b.friction_2;
+  impulses.twist = a.twist + w * b.twist;
+  return impulses;
 }
 
-/// Twist counts at the arm of the first point.
-double square_of(const StaticBlock& c, const BlockLoads& a) {
+/// Returns the square of the impulses; that of twist is divided by the arm of the first point.
+double square_of(const StaticBlock& c, const BlockImpulses& a) {
   const Wide4 zero = {}, arm = c.point[0].arm;
   const Wide4 twist = arm > zero ? a.twist / (arm > zero ? arm : splat<Wide4>(1)) : zero;
-  Wide4 square = a.slide_1 * a.slide_1 + a.slide_2 * a.slide_2 + twist * twist;
-  for (int i = 0; i < 4; ++i) square += a.press[i] * a.press[i];
+  Wide4 square = a.friction_1 * a.friction_1 + a.friction_2 * a.friction_2 + twist * twist;
+  for (int i = 0; i < 4; ++i) square += a.normal[i] * a.normal[i];
   double all = 0;
   for (std::uint32_t lane = 0; lane < kStaticLanes; ++lane) all += double{square[lane]};
   return all;
 }
 
-/// Of what is faster: the two surfaces against each other at the middle of the contact, or one of
-/// them against the world. What moves together, as the pieces of a slab that topples do, is not at
-/// rest either, whatever it stands on.
+/// Returns the largest of three speeds at the middle of the contact: of the surfaces against each
+/// other, and of each against the world. Bodies that move together, as pieces of a toppling slab,
+/// are not at rest, whatever supports them.
 double greatest_speed(const Manifold& m, const Bodies& bodies) {
   auto velocity = [&](BodySlot body, const Vec3f& arm) {
     return Vec3(bodies.velocity[body] + bodies.angular_velocity[body].cross(arm.cast<double>()));
@@ -70,10 +72,11 @@ double greatest_speed(const Manifold& m, const Bodies& bodies) {
   return std::max({(b - a).norm(), a.norm(), b.norm()});
 }
 
-/// What touches but for a sliver bears as if it did, however short the substep.
+/// Closes gaps below kClosedGap, so that contacts have the same impulses for any substep.
 void close_gaps(const ContactStep& step, StaticBlock& c) {
   for (std::uint32_t lane = 0; lane < c.count; ++lane) {
-    const float none_m = kSliver * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
+    const float none_m =
+        kClosedGap * step.contacts.manifolds[step.manifolds[c.first + lane]].size_m;
     for (std::uint32_t i = 0; i < c.points; ++i) {
       const float separation_m = c.point[i].separation[lane];
       if (separation_m > 0 && separation_m < none_m) c.point[i].separation[lane] = 0;
@@ -81,43 +84,45 @@ void close_gaps(const ContactStep& step, StaticBlock& c) {
   }
 }
 
-/// How deep a point gives way under its load.
-float yield_m(const StaticBlock& c, std::uint32_t lane, std::size_t point, float yield_s) {
+/// Returns the compression of a point by its impulse.
+float compression_m(const StaticBlock& c, std::uint32_t lane, std::size_t point,
+                    float compliance_s) {
   const float mass = c.point[point].mass[lane];
-  return mass > 0 ? yield_s * c.point[point].impulse[lane] / mass : 0;
+  return mass > 0 ? compliance_s * c.point[point].impulse[lane] / mass : 0;
 }
 
-/// Impulses of the points, and the separations at which they bear them.
-void store_points(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
+/// Stores the impulses of the points, and the separations at which they have them.
+void store_points(const StaticBlock& c, std::uint32_t lane, float compliance_s, float kept_scale,
                   float factor, Manifold& m) {
   float depth[4] = {}, deepest = 0;
   for (std::size_t i = 0; i < m.count; ++i) {
     m.points[i].impulse_Ns = kept_scale * factor * c.point[i].impulse[lane];
-    depth[i] = factor * yield_m(c, lane, i, yield_s);
+    depth[i] = factor * compression_m(c, lane, i, compliance_s);
     deepest = std::max(deepest, depth[i]);
   }
-  // An overlap that this load explains is as much at rest as none.
-  const float most = kDeep * m.size_m, least = -std::min(deepest, most);
+  // An overlap no larger than the compression by the load is at rest too.
+  const float most = kMaxRestOffset * m.size_m, least = -std::min(deepest, most);
   for (std::size_t i = 0; i < m.count; ++i) {
     ManifoldPoint& p = m.points[i];
     p.rest_m = std::clamp(p.separation_m + depth[i], least, depth[i] > 0 ? most : 0);
   }
 }
 
-/// Impulses of friction, and the drift of its anchors that bears them.
-void store_friction(const StaticBlock& c, std::uint32_t lane, float yield_s, float kept_scale,
+/// Stores the impulses of friction, and the drift of its anchors that they need.
+void store_friction(const StaticBlock& c, std::uint32_t lane, float compliance_s, float kept_scale,
                     float factor, Manifold& m) {
-  const float s1 = factor * c.slide_impulse_1[lane], s2 = factor * c.slide_impulse_2[lane];
+  const float s1 = factor * c.friction_impulse_1[lane], s2 = factor * c.friction_impulse_2[lane];
   const Vec3f t1 = lane_of(c.tangent_1, lane), t2 = lane_of(c.tangent_2, lane);
   m.friction_impulse_W = kept_scale * (s1 * t1 + s2 * t2);
   m.twist_impulse = kept_scale * factor * c.twist_impulse[lane];
-  const float m11 = c.slide_11[lane], m12 = c.slide_12[lane], m22 = c.slide_22[lane];
+  const float m11 = c.friction_mass_11[lane], m12 = c.friction_mass_12[lane],
+              m22 = c.friction_mass_22[lane];
   const float det = m11 * m22 - m12 * m12;
   if (!(det > 0)) return;
-  const float far_1 = (m22 * s1 - m12 * s2) / det, far_2 = (m11 * s2 - m12 * s1) / det;
-  Vec3f drift = -yield_s * (far_1 * t1 + far_2 * t2);
-  const float far = drift.norm(), most = kDeep * m.size_m;
-  if (far > most) drift *= most / far;
+  const float drift_1 = (m22 * s1 - m12 * s2) / det, drift_2 = (m11 * s2 - m12 * s1) / det;
+  Vec3f drift = -compliance_s * (drift_1 * t1 + drift_2 * t2);
+  const float length = drift.norm(), most = kMaxRestOffset * m.size_m;
+  if (length > most) drift *= most / length;
   m.drift_W += drift;
   m.friction_arm_B += drift;
 }
@@ -128,14 +133,14 @@ void StaticWarmStart::apply(const StepContext& context, double factor, const Bod
                             Contacts& contacts) {
   if (!collect(context, bodies, contacts) || !(factor > 0)) return;
   begin(context, bodies, contacts);
-  estimate(context, bodies, contacts);
+  estimate_impulses(context, bodies, contacts);
   const auto first_split = static_cast<std::uint32_t>(manifolds_.size());
   const ContactStep step{context, bodies,  contacts,       manifolds_,         first_split,
-                         {},      root_W_, {rows_.data()}, soft_step(context), kNoBounce};
-  const double kick_m_s = context.h_s * context.gravity_W.norm();
-  find_loads(step, kick_m_s);
-  find_supported(kick_m_s, bodies);
-  release_overloaded(context.gravity_W, step.soft, bodies, contacts);
+                         {},      root_W_, {rows_.data()}, soft_step(context), kNoRebound};
+  const double gravity_dv_m_s = context.h_s * context.gravity_W.norm();
+  find_impulses(step, gravity_dv_m_s);
+  find_supported(gravity_dv_m_s, bodies);
+  mark_overloaded(context.gravity_W, step.soft, bodies, contacts);
   store(step.soft, context.kept_scale, static_cast<float>(factor), bodies, contacts);
 }
 
@@ -145,19 +150,19 @@ bool StaticWarmStart::collect(const StepContext& step, const Bodies& bodies, Con
   return !manifolds_.empty();
 }
 
-/// Lists what is to get its load, by colour and number of points.
+/// Lists the manifolds that get a warm start, by colour and number of points.
 void StaticWarmStart::find_resting(const StepContext& step, const Bodies& bodies,
                                    Contacts& contacts) {
   std::uint32_t start[kSweepKeys + 1] = {};
   std::vector<std::pair<std::uint32_t, ManifoldSlot>> resting;  // key, manifold
   resting.reserve(contacts.cold.size());
-  const double slow_m_s = kSlowFalls * step.fall_m_s;
+  const double slow_m_s = kRestingSpeed * step.fall_m_s;
   for (const ManifoldSlot i : std::exchange(contacts.cold, {})) {
     Manifold& m = contacts.manifolds[i];
-    if (!m.cold) continue;  // gone, or here for the second time
+    if (!m.cold) continue;  // removed, or listed twice
     m.cold = false;
     if (!touches_awake(m, bodies)) continue;
-    const bool rests = std::abs(m.least_separation()) < kMargin * m.size_m;
+    const bool rests = std::abs(m.least_separation()) < kRestingDistance * m.size_m;
     if (!rests || greatest_speed(m, bodies) >= slow_m_s) continue;
     resting.emplace_back(m.sweep_key(), i);
     ++start[resting.back().first + 1];
@@ -173,7 +178,7 @@ void StaticWarmStart::make_blocks(const Contacts& contacts) {
   colors_.clear();
   for (std::uint32_t i = 0; i < manifolds_.size();) {
     const Manifold& m = contacts.manifolds[manifolds_[i]];
-    // What found no colour may share bodies: one at a time.
+    // Manifolds without a colour may share bodies: one a block.
     const std::uint32_t width = m.color < kMaxColors ? kStaticLanes : 1;
     if (i == 0 || contacts.manifolds[manifolds_[i - 1]].color != m.color)
       colors_.push_back({static_cast<std::uint32_t>(blocks_.size()), 0, kGrain});
@@ -190,144 +195,149 @@ void StaticWarmStart::make_blocks(const Contacts& contacts) {
 
 void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
                             const Contacts& contacts) {
-  const Vec3f& kick = step.kick_W;
+  const Vec3f& gravity_dv = step.gravity_dv_W;
   const float scale = step.impulse_scale;
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
-  concerned_.assign(bodies.size(), 0);
-  concerned_bodies_.clear();
+  involved_.assign(bodies.size(), 0);
+  involved_bodies_.clear();
   for (const ManifoldSlot i : manifolds_) {
     for (const BodySlot body : {contacts.manifolds[i].body_a, contacts.manifolds[i].body_b}) {
-      if (concerned_[body] || !bodies.awake(body)) continue;
-      concerned_[body] = 1;
-      concerned_bodies_.push_back(body);
+      if (involved_[body] || !bodies.awake(body)) continue;
+      involved_[body] = 1;
+      involved_bodies_.push_back(body);
       rows_[row_of(body)] = BodyRow{};
-      rows_[row_of(body)].velocity = Wide{kick.x(), kick.y(), kick.z(), 0, 0, 0, 0, 0};
+      rows_[row_of(body)].velocity =
+          Wide{gravity_dv.x(), gravity_dv.y(), gravity_dv.z(), 0, 0, 0, 0, 0};
       root_W_[body] = bodies.rotation_f[body] * bodies.root_B[body];
     }
   }
   auto push = [&](BodySlot body, const Vec3f& impulse, const Vec3f& angular) {
-    if (!concerned_[body]) return;
+    if (!involved_[body]) return;
     const Vec3f v = bodies.inverse_mass[body] * impulse, w = root_W_[body].transpose() * angular;
     rows_[row_of(body)].velocity += Wide{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0, 0};
   };
   for (const Manifold& m : contacts.manifolds) {
-    if (m.count == 0 || !(concerned_[m.body_a] || concerned_[m.body_b])) continue;
-    auto press = [&](const Vec3f& impulse, const Vec3f& arm_A, const Vec3f& arm_B) {
+    if (m.count == 0 || !(involved_[m.body_a] || involved_[m.body_b])) continue;
+    auto apply = [&](const Vec3f& impulse, const Vec3f& arm_A, const Vec3f& arm_B) {
       push(m.body_a, -impulse, -arm_A.cross(impulse));
       push(m.body_b, impulse, arm_B.cross(impulse));
     };
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
-      press(scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
+      apply(scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
     }
-    press(scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
+    apply(scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
     const Vec3f angular = scale * m.twist_impulse * m.normal_W;
     push(m.body_a, Vec3f::Zero(), -angular);
     push(m.body_b, Vec3f::Zero(), angular);
   }
 }
 
-/// A first guess, from which few rounds lead to the loads.
-void StaticWarmStart::estimate(const StepContext& step, const Bodies& bodies, Contacts& contacts) {
+/// Finds a first estimate, from which few rounds converge.
+void StaticWarmStart::estimate_impulses(const StepContext& step, const Bodies& bodies,
+                                        Contacts& contacts) {
   loads_.assign(bodies.size(), {});
-  const Vec3f& kick = step.kick_W;
+  const Vec3f& gravity_dv = step.gravity_dv_W;
   for (const BodySlot body : bodies.slots()) {
-    if (!concerned_[body]) continue;
+    if (!involved_[body]) continue;
     const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);
     loads_[body].impulse_W = velocity / bodies.inverse_mass[body];
     loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
-    loads_[body].supported = velocity.dot(kick) < 0.5f * kick.squaredNorm();
+    loads_[body].supported = velocity.dot(gravity_dv) < 0.5f * gravity_dv.squaredNorm();
   }
-  follow_loads(step.gravity_W, manifolds_, step.kept_scale, bodies, loads_, contacts);
+  distribute_loads(step.gravity_W, manifolds_, step.kept_scale, bodies, loads_, contacts);
 }
 
-void StaticWarmStart::find_loads(const ContactStep& step, double kick_m_s) {
+void StaticWarmStart::find_impulses(const ContactStep& step, double gravity_dv_m_s) {
   double points = 0;
   for (const StaticBlock& c : blocks_) points += c.points * static_cast<double>(c.count);
-  const int rounds = std::clamp(static_cast<int>(kWork / points), kLeastRounds, kMostRounds);
+  const int rounds = std::clamp(static_cast<int>(kMaxWork / points), kLeastRounds, kMostRounds);
   change_.assign(blocks_.size(), {});
   direction_.assign(blocks_.size(), {});
   square_.resize(blocks_.size());
   Nncg nncg;
   float beta = 0;
-  const auto run = [&](const auto& work) {  // on every block
+  const auto run = [&](const auto& work) {  // runs on every block
     run_stages(colors_, [&](const StageItems&, std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) work(blocks_[i], i);
     });
   };
   const auto sweep = [&](StaticBlock& c, std::uint32_t i) {
-    const BlockLoads before = loads_of(c);
+    const BlockImpulses before = impulses_of(c);
     sweep_relaxed(c, step.rows, step.soft);
-    change_[i] = sum(loads_of(c), -1, before);
+    change_[i] = sum(impulses_of(c), -1, before);
     square_[i] = {square_of(c, change_[i]), square_of(c, before)};
   };
-  const auto go_on = [&](StaticBlock& c, std::uint32_t i) {
-    const BlockLoads before = loads_of(c);
-    set_loads(sum({}, beta, direction_[i]), c);
+  const auto step_along_direction = [&](StaticBlock& c, std::uint32_t i) {
+    const BlockImpulses before = impulses_of(c);
+    set_impulses(sum({}, beta, direction_[i]), c);
     warm_start(c, step.rows);
-    set_loads(sum(before, beta, direction_[i]), c);
+    set_impulses(sum(before, beta, direction_[i]), c);
     direction_[i] = sum(change_[i], beta, direction_[i]);
   };
   run([&](StaticBlock& c, std::uint32_t) { prepare_block(step, c), close_gaps(step, c); });
   run([&](StaticBlock& c, std::uint32_t) { warm_start(c, step.rows); });
   double last_seen = 0;
   std::size_t last_supported = 0;
-  int look = kFirstLook;
+  int next_check = kFirstCheck;
   for (int round = 0; round < rounds; ++round) {
     run(sweep);
     double square = 0, loads = 0;
     for (const auto& [of_change, of_loads] : square_) square += of_change, loads += of_loads;
-    if (square <= kDone * std::max(square, loads) || round + 1 == rounds) return;
-    if (round == look) {
-      // Rounding or sliding contacts may keep the loads from ever coming to rest.
+    if (square <= kConverged * std::max(square, loads) || round + 1 == rounds) return;
+    if (round == next_check) {
+      // Rounding or sliding contacts may prevent convergence.
       const double seen = square / loads;
-      const std::size_t supported = find_supported(kick_m_s, step.bodies);
+      const std::size_t supported = find_supported(gravity_dv_m_s, step.bodies);
       const bool stuck = seen > 0.5 * last_seen;
-      const bool all = supported == concerned_bodies_.size();
-      if (seen < kNearlyDone && supported <= last_supported && (stuck || !all)) return;
+      const bool all = supported == involved_bodies_.size();
+      if (seen < kNearlyConverged && supported <= last_supported && (stuck || !all)) return;
       last_seen = seen, last_supported = supported;
-      look *= 2;
+      next_check *= 2;
     }
     beta = static_cast<float>(nncg.beta(square));
-    run(go_on);
+    run(step_along_direction);
   }
 }
 
-/// A body that its loads would leave with more energy than gravity gave it is not supported: the
-/// rounds were too few, or nothing can support it. Answers how many are.
-std::size_t StaticWarmStart::find_supported(double kick_m_s, const Bodies& bodies) {
+/// Marks bodies as unsupported that would have more energy with these impulses than gravity gave
+/// them: there were too few rounds, or nothing can support them. Returns the number of supported
+/// bodies.
+std::size_t StaticWarmStart::find_supported(double gravity_dv_m_s, const Bodies& bodies) {
   std::size_t supported = 0;
-  for (const BodySlot body : concerned_bodies_) {
+  for (const BodySlot body : involved_bodies_) {
     const Wide& v = rows_[row_of(body)].velocity;
     const Vec3f velocity = linear(v), spin = angular(v);  // of unit inertia
     const double energy =
         double{velocity.squaredNorm()} + double{bodies.inverse_mass[body] * spin.squaredNorm()};
-    loads_[body].supported = energy <= kMostLeft * kick_m_s * kick_m_s;
+    loads_[body].supported = energy <= kMaxResidualEnergy * gravity_dv_m_s * gravity_dv_m_s;
     supported += loads_[body].supported;
   }
   return supported;
 }
 
-/// What would have to give way further than points may rest is not supported, nor what stands on
-/// it: it will fall, and points at rest are springs under load, which would give it their energy.
-void StaticWarmStart::release_overloaded(const Vec3& gravity_W, const SoftStep& soft,
-                                         const Bodies& bodies, const Contacts& contacts) {
+/// Marks bodies as unsupported whose contacts would need a rest separation beyond the maximum, and
+/// the bodies on them: they will fall, and contacts at rest are loaded springs, which would give
+/// them energy.
+void StaticWarmStart::mark_overloaded(const Vec3& gravity_W, const SoftStep& soft,
+                                      const Bodies& bodies, const Contacts& contacts) {
   bool any = false;
   for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       const Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
       float deepest = 0;
       for (std::size_t i = 0; i < m.count; ++i)
-        deepest = std::max(deepest, yield_m(c, lane, i, soft.of(c.points).press.yield_s));
-      if (deepest <= kDeep * m.size_m) continue;
+        deepest =
+            std::max(deepest, compression_m(c, lane, i, soft.of(c.points).normal.compliance_s));
+      if (deepest <= kMaxRestOffset * m.size_m) continue;
       any = true;
       for (const BodySlot body : {m.body_a, m.body_b}) loads_[body].supported = false;
     }
   }
-  if (any) release_above(gravity_W, manifolds_, bodies, contacts, loads_);
+  if (any) mark_unsupported_above(gravity_W, manifolds_, bodies, contacts, loads_);
 }
 
 void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor,
@@ -335,10 +345,10 @@ void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor
   for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
-      auto supported = [&](BodySlot body) { return !concerned_[body] || loads_[body].supported; };
+      auto supported = [&](BodySlot body) { return !involved_[body] || loads_[body].supported; };
       const float part = supported(m.body_a) && supported(m.body_b) ? factor : 0;
-      store_points(c, lane, soft.of(c.points).press.yield_s, kept_scale, part, m);
-      store_friction(c, lane, soft.of(c.points).slide.yield_s, kept_scale, part, m);
+      store_points(c, lane, soft.of(c.points).normal.compliance_s, kept_scale, part, m);
+      store_friction(c, lane, soft.of(c.points).friction.compliance_s, kept_scale, part, m);
       m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
     }
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 
@@ -19,7 +19,7 @@ void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Co
   const std::uint32_t colors = color_rest(bodies, contacts) + 1;
   start_.assign(colors * kKeysAColor + 1, 0);
   const auto key_of = [&](ManifoldSlot i, const Manifold& m) {
-    if (m.color < kMaxColors) return key(m.color, impacts_.near(m), m.count);
+    if (m.color < kMaxColors) return key(m.color, impacts_.propagates(m), m.count);
     const std::uint32_t color = more_colors_.empty() ? kNoColor : more_colors_[i];
     return color == kNoColor ? key(colors - 1, false, m.count) : key(color, true, m.count);
   };
@@ -32,7 +32,8 @@ void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Co
     in_contact_[m.body_a] = in_contact_[m.body_b] = 1;
     if (m.normal_impulse() > 0)
       for (const BodySlot body : {m.body_a, m.body_b})
-        loaded_contacts_[body] = std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinched);
+        loaded_contacts_[body] =
+            std::min<std::uint8_t>(loaded_contacts_[body] + 1, kPinchedContacts);
     points_ += m.count;
     bouncy_ = bouncy_ || m.restitution > 0;
     if (!m.deep) continue;
@@ -45,17 +46,18 @@ void SweepOrder::collect(const StepContext& step, const Bodies& bodies, const Co
   for (const auto& [i, key] : found_) manifolds_[next[key]++] = i;
 }
 
-/// Gives what is near an impact and found no colour one of as many more: what is split takes an
-/// impact up slowly. How many colours there are, then.
+/// Gives the uncoloured manifolds near an impact more colours, since split manifolds take up an
+/// impact slowly. Returns the number of colours then.
 std::uint32_t SweepOrder::color_rest(const Bodies& bodies, const Contacts& contacts) {
   more_colors_.clear();
   std::uint32_t colors = kMaxColors;
-  if (impacts_.empty() || contacts.colors < kMaxColors) return colors;  // split by choice
+  // split by choice of the option
+  if (impacts_.empty() || contacts.colors < kMaxColors) return colors;
   ByBody<std::uint64_t> taken(bodies.size());
   more_colors_.assign(contacts.manifolds.size(), kNoColor);
   for (const ManifoldSlot i : contacts.manifolds.slots()) {
     const Manifold& m = contacts.manifolds[i];
-    if (m.count == 0 || m.color < kMaxColors || !impacts_.near(m)) continue;
+    if (m.count == 0 || m.color < kMaxColors || !impacts_.propagates(m)) continue;
     const bool a = bodies.awake(m.body_a), b = bodies.awake(m.body_b);
     const std::uint64_t used = (a ? taken[m.body_a] : 0) | (b ? taken[m.body_b] : 0);
     if ((!a && !b) || ~used == 0) continue;

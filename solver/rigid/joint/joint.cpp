@@ -6,8 +6,8 @@
 namespace sunder::solver {
 namespace {
 
-// In place of a pair of bodies: whatever stands.
-constexpr std::uint64_t kStanding = ~std::uint64_t{0};
+// Stands for a pair of bodies: any static body.
+constexpr std::uint64_t kAnyStatic = ~std::uint64_t{0};
 
 std::uint64_t body_pair(BodySlot a, BodySlot b) {
   return std::uint64_t{std::min(a, b).value} << 32 | std::max(a, b).value;
@@ -17,7 +17,7 @@ BodySlot slot_of(BodyId id, const Bodies& bodies) {
   return id.none() ? BodySlot() : bodies.slot(id);
 }
 
-bool bears(const SectionStrength& strength) {
+bool has_strength(const SectionStrength& strength) {
   return strength.axial_N > 0 && strength.shear_N > 0 && strength.moment_Nm.minCoeff() > 0;
 }
 
@@ -41,26 +41,26 @@ void Joints::wake_ends(const Joint& joint, Bodies& bodies) const {
   wake_body(joint.body_b, bodies);
 }
 
-void Joints::note_pairs(const Bodies& bodies) {
-  apart_.clear();
-  quiet_.clear();
+void Joints::update_ignored_pairs(const Bodies& bodies) {
+  ignored_pairs_.clear();
+  ignored_shapes_.clear();
   for (const Joint& joint : items_) {
     if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) continue;
     const std::uint64_t pair = body_pair(joint.body_a, joint.body_b);
     if (joint.desc.kind == JointKind::kPlastic) {
       const auto add = [&](BodySlot body, BodySlot other, const std::vector<std::uint32_t>& tags) {
-        const bool stands = bodies.motion[other] == Motion::kStatic;
+        const bool is_static = bodies.motion[other] == Motion::kStatic;
         for (const std::uint32_t tag : tags)
-          quiet_.push_back({stands ? kStanding : pair, body, tag});
+          ignored_shapes_.push_back({is_static ? kAnyStatic : pair, body, tag});
       };
       add(joint.body_a, joint.body_b, joint.desc.quiet_a);
       add(joint.body_b, joint.body_a, joint.desc.quiet_b);
     } else if (!joint.desc.collide) {
-      apart_.push_back(pair);
+      ignored_pairs_.push_back(pair);
     }
   }
-  std::ranges::sort(apart_);
-  std::ranges::sort(quiet_);
+  std::ranges::sort(ignored_pairs_);
+  std::ranges::sort(ignored_shapes_);
 }
 
 JointId Joints::add(const JointDesc& desc, Bodies& bodies) {
@@ -75,9 +75,9 @@ JointId Joints::add(const JointDesc& desc, Bodies& bodies) {
   joint.body_a = slot_of(desc.a, bodies);
   joint.body_b = slot_of(desc.b, bodies);
   SUNDER_CHECK(joint.body_a != joint.body_b);
-  SUNDER_CHECK(desc.kind != JointKind::kPlastic || bears(desc.strength));
+  SUNDER_CHECK(desc.kind != JointKind::kPlastic || has_strength(desc.strength));
   wake_ends(joint, bodies);
-  note_pairs(bodies);
+  update_ignored_pairs(bodies);
   return {slot, joint.generation};
 }
 
@@ -92,11 +92,11 @@ void Joints::attach(JointId id, bool end_a, BodyId body, std::span<const std::ui
   const bool lost_b = joint.body_b.none() && !joint.desc.b.none();
   joint.lost = lost_a || lost_b || joint.body_a == joint.body_b;
   wake_ends(joint, bodies);
-  note_pairs(bodies);
+  update_ignored_pairs(bodies);
 }
 
 void Joints::strengthen(JointId id, const SectionStrength& strength) {
-  SUNDER_CHECK(bears(strength));
+  SUNDER_CHECK(has_strength(strength));
   at(id).desc.strength = strength;
 }
 
@@ -106,17 +106,17 @@ void Joints::cut(JointId id, Bodies& bodies) {
   joint = Joint{};
   joint.generation = id.generation + 1;
   free_slots_.push_back(id.slot);
-  note_pairs(bodies);
+  update_ignored_pairs(bodies);
 }
 
-void Joints::lose(BodySlot body, Bodies& bodies) {
+void Joints::detach(BodySlot body, Bodies& bodies) {
   for (Joint& joint : items_) {
     if (!joint.present || (joint.body_a != body && joint.body_b != body)) continue;
     (joint.body_a == body ? joint.body_a : joint.body_b) = {};
     joint.lost = true;
     wake_ends(joint, bodies);
   }
-  note_pairs(bodies);
+  update_ignored_pairs(bodies);
 }
 
 std::vector<BodySlot> Joints::joined_to(BodySlot body, const Bodies& bodies) const {
@@ -143,7 +143,9 @@ void Joints::wake(Bodies& bodies) const {
     const auto pass_on = [&](const Joint& joint) {
       if (!joint.holds() || joint.body_a.none() || joint.body_b.none()) return;
       const BodySlot a = joint.body_a, b = joint.body_b;
-      const auto moves = [&](BodySlot body) { return bodies.awake(body) || bodies.shifts(body); };
+      const auto moves = [&](BodySlot body) {
+        return bodies.awake(body) || bodies.is_shifting_kinematic(body);
+      };
       const BodySlot sleeper = moves(a) ? b : a;
       if (!moves(a) && !moves(b)) return;
       if (bodies.motion[sleeper] != Motion::kAsleep) return;
@@ -155,16 +157,17 @@ void Joints::wake(Bodies& bodies) const {
   }
 }
 
-bool Joints::apart(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const {
-  if (apart_.empty() && quiet_.empty()) return false;
+bool Joints::ignores(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const {
+  if (ignored_pairs_.empty() && ignored_shapes_.empty()) return false;
   const std::uint64_t key = body_pair(pair.body_a, pair.body_b);
   const auto quiet = [&](BodySlot body, ShapeSlot shape, BodySlot other) {
     const std::uint32_t tag = shapes[shape].tag;
-    return std::ranges::binary_search(quiet_, Quiet{key, body, tag}) ||
+    return std::ranges::binary_search(ignored_shapes_, IgnoredShape{key, body, tag}) ||
            (bodies.motion[other] == Motion::kStatic &&
-            std::ranges::binary_search(quiet_, Quiet{kStanding, body, tag}));
+            std::ranges::binary_search(ignored_shapes_, IgnoredShape{kAnyStatic, body, tag}));
   };
-  return std::ranges::binary_search(apart_, key) || quiet(pair.body_a, pair.shape_a, pair.body_b) ||
+  return std::ranges::binary_search(ignored_pairs_, key) ||
+         quiet(pair.body_a, pair.shape_a, pair.body_b) ||
          quiet(pair.body_b, pair.shape_b, pair.body_a);
 }
 
@@ -179,8 +182,8 @@ std::vector<JointId> Joints::take_broken() {
   return std::exchange(broken_, {});
 }
 
-std::vector<JointLoad> Joints::loads(const Bodies& bodies) const {
-  std::vector<JointLoad> loads;
+std::vector<JointImpulse> Joints::loads(const Bodies& bodies) const {
+  std::vector<JointImpulse> loads;
   const auto add = [&](BodySlot body, const Vec3& anchor_R, const JointImpulse& impulse) {
     if (body.none() || !bodies.reports_load[body]) return;
     const Vec3 arm = bodies.rotation[body] * (anchor_R - bodies.com_R[body]);
@@ -195,8 +198,8 @@ std::vector<JointLoad> Joints::loads(const Bodies& bodies) const {
   return loads;
 }
 
-std::vector<JointFlow> Joints::flows() const {
-  std::vector<JointFlow> flows;
+std::vector<PlasticFlow> Joints::flows() const {
+  std::vector<PlasticFlow> flows;
   for (std::uint32_t i = 0; i < size(); ++i) {
     if (!items_[i].holds() || !(items_[i].flow.work_J > 0)) continue;
     flows.push_back(items_[i].flow);
@@ -205,7 +208,7 @@ std::vector<JointFlow> Joints::flows() const {
   return flows;
 }
 
-void Joints::forget_flows() {
+void Joints::clear_flows() {
   for (Joint& joint : items_) joint.flow = {};
 }
 

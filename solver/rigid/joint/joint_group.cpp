@@ -5,26 +5,28 @@
 #include <utility>
 
 #include "solver/rigid/joint/plastic.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr int kAimRounds = 3;
-constexpr double kSoftness = 1e-6;  // of a row's response: two hinges of a door say the same twice
+constexpr int kAlignRounds = 3;
+// relative to a row's response: the two hinges of a door have redundant rows
+constexpr double kSoftness = 1e-6;
 
-/// Response of row i of one joint to an impulse along row j of another, through what they share.
+/// Returns the response of row i of one joint to an impulse along row j of another, by shared
+/// bodies.
 double response(const JointWork& m, const JointRow& i, const JointWork& n, const JointRow& j) {
-  const double pushes = double{i.push.dot(j.push)};
+  const double linear = double{i.push.dot(j.push)};
   double sum = 0;
   if (m.row_a > 0 && m.row_a == n.row_a)
-    sum += double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_a)};
+    sum += double{m.inverse_mass_a} * linear + double{i.angular_a.dot(j.angular_a)};
   if (m.row_b > 0 && m.row_b == n.row_b)
-    sum += double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_b)};
+    sum += double{m.inverse_mass_b} * linear + double{i.angular_b.dot(j.angular_b)};
   if (m.row_a > 0 && m.row_a == n.row_b)
-    sum -= double{m.inverse_mass_a} * pushes + double{i.angular_a.dot(j.angular_b)};
+    sum -= double{m.inverse_mass_a} * linear + double{i.angular_a.dot(j.angular_b)};
   if (m.row_b > 0 && m.row_b == n.row_a)
-    sum -= double{m.inverse_mass_b} * pushes + double{i.angular_b.dot(j.angular_a)};
+    sum -= double{m.inverse_mass_b} * linear + double{i.angular_b.dot(j.angular_a)};
   return sum;
 }
 
@@ -41,7 +43,7 @@ void for_plastic(std::span<JointWork> works, const Visit& visit) {
     if (work.kind == JointKind::kPlastic) visit(work);
 }
 
-/// Lays out the envelope: a joint's rows begin with those of the first joint it shares a body with.
+/// Sets the envelope: a joint's rows begin at those of the first joint that it shares a body with.
 void lay_out(JointGroup& group, std::span<const JointWork> works) {
   Envelope& e = group.matrix;
   e.first.clear();
@@ -68,8 +70,8 @@ void lay_out(JointGroup& group, std::span<const JointWork> works) {
   group.change.resize(e.rows());
 }
 
-/// Of the rows of one joint to those of another, or of itself: then half of them say it all, unless
-/// they are turned.
+/// Returns the response of the rows of a joint to those of another, or of itself: then only the
+/// lower half is set, unless the rows are turned.
 Mat6 responses(const JointWork& m, const JointWork& n) {
   Mat6 block = Mat6::Zero();
   const bool half = &m == &n && m.kind != JointKind::kPlastic;
@@ -80,12 +82,12 @@ Mat6 responses(const JointWork& m, const JointWork& n) {
   return block;
 }
 
-/// What a joint's rows give way by themselves.
+/// Adds the softness of a joint's rows to the diagonal.
 void soften(const JointWork& work, std::span<double> softness, Mat6& block) {
   for (int i = 0; i < work.rows; ++i) {
     const double own = work.row[static_cast<std::size_t>(i)].softness;
     double& diagonal = block(i, i);
-    // What a broken joint, or what is between two immovable ends, is asked does not matter.
+    // Rows of a broken joint, or between two immovable ends, have no effect.
     const bool moves = diagonal > 0 && !work.broken;
     double& soft = softness[static_cast<std::size_t>(i)];
     soft = own > 0 ? own : moves ? kSoftness * diagonal : 1;
@@ -110,24 +112,24 @@ void fill(JointGroup& group, std::span<const JointWork> works) {
       }
     }
   }
-  group.bounded ? group.pinned.forget() : e.factor();
+  group.bounded ? group.pinned.invalidate() : e.factor();
 }
 
-/// What the correction of an error asks for, as a speed: of what there is, and of what the turn of
-/// this substep would add.
+/// Returns the correction speed of row i: of its error, and of the error that rotation adds in this
+/// substep.
 double bias(const JointWork& work, int i, const StepContext& step, bool biased) {
   const double error = work.row[static_cast<std::size_t>(i)].error;
   const double apart = work.kind == JointDesc::Kind::kRope ? std::min(0.0, error) : 0;
-  if (apart < 0) return apart / step.h_s;  // a slack rope may run out
+  if (apart < 0) return apart / step.h_s;  // a slack rope may move up to its length
   if (!biased || i >= work.held_rows) return 0;
-  const double ahead = 0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].bend_s2;
-  if (i > 0 && work.plastic.softness > 0) return ahead;  // what it flows is no error
-  const double push_m_s = kPush * step.froude.speed_m_s(work.reach_m);
+  const double ahead = 0.5 * step.h_s * work.row[static_cast<std::size_t>(i)].error_acceleration;
+  if (i > 0 && work.plastic.softness > 0) return ahead;  // the flow is no error
+  const double push_m_s = kMaxJointPushSpeed * step.froude.speed_m_s(work.reach_m);
   const double most = i < work.place_rows ? push_m_s : push_m_s / work.reach_m;
-  return std::clamp(kStiffness / step.h_s * error, -most, most) + ahead;
+  return std::clamp(kJointCorrection / step.h_s * error, -most, most) + ahead;
 }
 
-/// Of this substep.
+/// Returns the impulse of this substep.
 JointImpulse impulse_of(const JointWork& work) {
   JointImpulse sum;
   for (std::size_t i = 0; i < static_cast<std::size_t>(work.rows); ++i) {
@@ -137,7 +139,7 @@ JointImpulse impulse_of(const JointWork& work) {
   return sum;
 }
 
-/// Solves for the change with bounds, along rows as plastic joints turn them.
+/// Solves for the change with bounds, along the turned rows of plastic joints.
 void find_bounded_change(JointGroup& group, std::span<JointWork> works) {
   const auto each = [&](const auto& visit) {
     for (std::size_t m = 0; m < works.size(); ++m) {
@@ -147,9 +149,9 @@ void find_bounded_change(JointGroup& group, std::span<JointWork> works) {
   };
   std::vector<RowBounds>& bounds = group.pinned.bounds;
   bounds.clear();
-  each([&](JointWork& work, std::span<double> asked) {
-    if (work.kind == JointKind::kPlastic) turn_asked(work, asked);
-    for (std::size_t i = 0; i < asked.size(); ++i) {
+  each([&](JointWork& work, std::span<double> target) {
+    if (work.kind == JointKind::kPlastic) turn_target(work, target);
+    for (std::size_t i = 0; i < target.size(); ++i) {
       if (work.kind != JointKind::kPlastic) work.bounds[i].now = work.impulse[i];
       bounds.push_back(work.bounds[i]);
     }
@@ -162,7 +164,7 @@ void find_bounded_change(JointGroup& group, std::span<JointWork> works) {
   });
 }
 
-/// What all rows have to add so that they hold, as far as their bounds let them.
+/// Finds the changes of impulses that satisfy all rows, as far as bounds allow.
 void find_change(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  bool biased, const BodyRow* rows) {
   std::size_t at = 0;
@@ -177,27 +179,27 @@ void find_change(JointGroup& group, std::span<JointWork> works, const StepContex
   group.bounded ? find_bounded_change(group, works) : group.matrix.solve(group.change);
 }
 
-/// Whether some plastic joint bears more than it can, since its direction was another.
-bool is_over(std::span<JointWork> works, const StepContext& step, const BodyRow* rows) {
+/// True if a plastic joint exceeds its strength, since the direction of its impulse has changed.
+bool exceeds_strength(std::span<JointWork> works, const StepContext& step, const BodyRow* rows) {
   bool over = false;
   for_plastic(works, [&](JointWork& work) {
-    note_flow(work, rows);
-    over = over || is_over(work, step.h_s);
+    record_flow_speed(work, rows);
+    over = over || exceeds_strength(work, step.h_s);
   });
   return over;
 }
 
-void take_out(JointWork& work) {
+void disable(JointWork& work) {
   work.broken = true;
   work.impulse = {};
-  work.owed = {};
+  work.pending = {};
   for (JointRow& row : work.row) row = JointRow{};
 }
 
-/// For the bodies as they lie and move.
+/// Updates the rows for the current poses and velocities.
 void renew_rows(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                 const BodyRow* rows) {
-  bool other = false;  // numbers of rows than were laid out
+  bool other = false;  // true if a number of rows has changed
   for (JointWork& work : works) {
     if (work.broken) continue;
     const int before = work.rows;
@@ -212,7 +214,7 @@ void renew_rows(JointGroup& group, std::span<JointWork> works, const StepContext
 void begin_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  const BodyRow* rows) {
   renew_rows(group, works, step, rows);
-  for_plastic(works, [&](JointWork& work) { aim(work, step.h_s); });
+  for_plastic(works, [&](JointWork& work) { align_rows(work, step.h_s); });
   fill(group, works);
 }
 
@@ -226,7 +228,7 @@ void warm_start_group(std::span<JointWork> works, const StepContext& step, BodyR
 void solve_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  bool biased, BodyRow* rows) {
   if (biased) {
-    for (JointWork& work : works) work.apply(std::exchange(work.owed, {}), rows);
+    for (JointWork& work : works) work.apply(std::exchange(work.pending, {}), rows);
   }
   for (int round = 1;; ++round) {
     find_change(group, works, step, biased, rows);
@@ -236,29 +238,29 @@ void solve_group(JointGroup& group, std::span<JointWork> works, const StepContex
       for (int i = 0; i < work.rows; ++i, ++at)
         work.impulse[static_cast<std::size_t>(i)] += group.change[at];
     }
-    if (!biased || !is_over(works, step, rows) || round == kAimRounds) return;
-    for_plastic(works, [&](JointWork& work) { aim(work, step.h_s); });
+    if (!biased || !exceeds_strength(works, step, rows) || round == kAlignRounds) return;
+    for_plastic(works, [&](JointWork& work) { align_rows(work, step.h_s); });
     fill(group, works);
   }
 }
 
 void refresh_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                    const BodyRow* rows) {
-  for (JointWork& work : works) work.owed = work.sum(work.impulse);
+  for (JointWork& work : works) work.pending = work.sum(work.impulse);
   renew_rows(group, works, step, rows);
   for_plastic(works, [&](JointWork& work) {
-    follow_flow(work, rows);
-    aim(work, step.h_s);
+    absorb_flow(work, rows);
+    align_rows(work, step.h_s);
   });
   fill(group, works);
-  for (JointWork& work : works) work.owed = work.sum(work.impulse) - work.owed;
+  for (JointWork& work : works) work.pending = work.sum(work.impulse) - work.pending;
 }
 
-void settle_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                  BodyRow* rows) {
+void solve_group_final(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                       BodyRow* rows) {
   for (JointWork& work : works) work.kept_impulse = std::exchange(work.impulse, {});
   renew_rows(group, works, step, rows);
-  for_plastic(works, hold);
+  for_plastic(works, fix_flow);
   fill(group, works);
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) {
@@ -268,9 +270,9 @@ void settle_group(JointGroup& group, std::span<JointWork> works, const StepConte
 }
 
 void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                 const float* share_of_row, BodyRow* rows) {
+                 const float* scale_of_row, BodyRow* rows) {
   const auto share_of = [&](const JointWork& work) {
-    return share_of_row[work.row_b > 0 ? work.row_b : work.row_a];
+    return scale_of_row[work.row_b > 0 ? work.row_b : work.row_a];
   };
   if (std::ranges::all_of(works, [&](const JointWork& work) { return share_of(work) == 1; }))
     return;
@@ -278,16 +280,17 @@ void scale_group(JointGroup& group, std::span<JointWork> works, const StepContex
     const float share = share_of(work);
     work.total += -impulse_of(work);
     for (double& impulse : work.impulse) impulse *= double{share};
-    work.owed = {share * work.owed.push, share * work.owed.angular_a, share * work.owed.angular_b};
+    work.pending = {share * work.pending.push, share * work.pending.angular_a,
+                    share * work.pending.angular_b};
   }
   solve_group(group, works, step, false, rows);
   for (JointWork& work : works) work.total += impulse_of(work);
 }
 
-void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                BodyRow* rows) {
+void break_overloaded_joints(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                             BodyRow* rows) {
   bool any = false;
-  for_plastic(works, [&](JointWork& work) { note_axial(work, step.h_s); });
+  for_plastic(works, [&](JointWork& work) { record_axial(work, step.h_s); });
   for (JointWork& work : works) {
     if (work.broken) continue;
     const JointImpulse impulse = impulse_of(work);
@@ -302,12 +305,12 @@ void test_group(JointGroup& group, std::span<JointWork> works, const StepContext
       continue;
     }
     work.apply(JointPush{} - work.sum(work.impulse), rows);
-    take_out(work);
+    disable(work);
     any = true;
   }
   if (any) fill(group, works);
-  if (!group.swings_free) return;
-  for (JointWork& work : works) work.owed = work.sum(work.impulse);
+  if (!group.hangs_free) return;
+  for (JointWork& work : works) work.pending = work.sum(work.impulse);
 }
 
 }  // namespace sunder::solver

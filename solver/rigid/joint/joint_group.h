@@ -1,4 +1,4 @@
-// Joints that are solved together, exactly: the rows of a band of linear equations.
+// Groups of joints that are solved together by a direct method: banded systems of linear equations.
 #pragma once
 
 #include <cstdint>
@@ -11,42 +11,42 @@
 namespace sunder::solver {
 
 struct JointGroup {
-  std::uint32_t first = 0, count = 0;  ///< Joints.
+  std::uint32_t first = 0, count = 0;  ///< Range of joints.
   std::uint8_t color = 0;
-  bool swings_free = false;              ///< It hangs together with nothing that touches anything.
-  bool bounded = false;                  ///< Some impulse in it is.
-  Envelope matrix;                       ///< Responses; factored, if nothing is bounded.
-  PinnedRows pinned;                     ///< If something is.
-  std::vector<std::uint32_t> first_row;  ///< Of each joint.
-  std::vector<std::uint32_t>
-      first_shared;              ///< Of its joints, the first that it shares a body with.
-  std::vector<double> softness;  ///< On the diagonal, by row.
-  std::vector<double> change;    ///< Scratch.
+  bool hangs_free = false;  ///< No body of the group is connected to a body in contact.
+  bool bounded = false;     ///< An impulse of the group has bounds.
+  Envelope matrix;          ///< Responses; factored unless an impulse has bounds.
+  PinnedRows pinned;        ///< Used if an impulse has bounds.
+  std::vector<std::uint32_t> first_row;  ///< First row of each joint.
+  /// First joint of the group that each joint shares a body with.
+  std::vector<std::uint32_t> first_shared;
+  std::vector<double> softness;  ///< Added to the diagonal, by row.
+  std::vector<double> change;    ///< Changes of the impulses, by row.
 };
 
-/// Rows for the bodies as they lie and move.
+/// Sets the rows for the current poses and velocities.
 void begin_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  const BodyRow* rows);
-/// Applies last step's impulses.
+/// Applies the impulses of the last step.
 void warm_start_group(std::span<JointWork> works, const StepContext& step, BodyRow* rows);
-/// One pass, with the correction of errors or without.
+/// Solves the group once, with or without correction of errors.
 void solve_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  bool biased, BodyRow* rows);
-/// After bodies moved: new rows.
+/// Updates the rows after the bodies moved.
 void refresh_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                    const BodyRow* rows);
-/// After a substep: joints that would have had to bear too much bear nothing from here on.
-void test_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                BodyRow* rows);
+/// Breaks the joints whose impulses of the substep exceed their strength.
+void break_overloaded_joints(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                             BodyRow* rows);
 
-/// After a step: velocities come to agree again, which each body's own spin has put apart. Impulses
-/// stay what they were.
-void settle_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                  BodyRow* rows);
+/// Makes velocities agree with the joints again after the rotation of each body at the end of the
+/// step. The stored impulses do not change.
+void solve_group_final(JointGroup& group, std::span<JointWork> works, const StepContext& step,
+                       BodyRow* rows);
 
-/// Bodies have kept a share of the substep's impulses, by row: joints keep it too, and then hold
-/// again, which takes energy as any joint does.
+/// Scales the impulses of the substep by the scale of their bodies, by row, and then solves the
+/// joints again, which takes energy as any solve of joints does.
 void scale_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
-                 const float* share_of_row, BodyRow* rows);
+                 const float* scale_of_row, BodyRow* rows);
 
 }  // namespace sunder::solver

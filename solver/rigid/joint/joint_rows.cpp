@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "engine/base/rotation.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-/// One end of a joint as the step begins.
+/// One end of a joint at the start of the step.
 struct End {
   Vec3 position, arm, axis;
   Quat rotation = Quat::Identity();
@@ -20,26 +20,27 @@ End end_of(BodySlot body, const Vec3& anchor_R, const Vec3& axis_R, const Bodies
   return {bodies.position[body], q * (anchor_R - bodies.com_R[body]), q * axis_R, q};
 }
 
-/// rad/s, in W; no more than a radian in a substep, beyond which nothing can be foreseen.
+/// Returns the angular velocity in W, at most a radian per substep: no extrapolation is valid
+/// beyond.
 Vec3 spin_of(const Mat3f& root, const BodyRow& row, double h_s) {
   const Vec3 spin = (root * angular(row.velocity)).cast<double>();
   return spin / std::max(1.0, h_s * spin.norm());
 }
 
 void place_row(JointWork& w, const Vec3& arm_a, const Vec3& arm_b, const Vec3& direction,
-               double error, double bend_s2) {
+               double error, double error_acceleration) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push = direction.cast<float>();
   row.turn.setZero();
   row.angular_a = w.root_a.transpose() * arm_a.cross(direction).cast<float>();
   row.angular_b = w.root_b.transpose() * arm_b.cross(direction).cast<float>();
   row.error = error;
-  row.bend_s2 = bend_s2;
+  row.error_acceleration = error_acceleration;
   row.softness = 0;
   ++w.place_rows;
 }
 
-void angular_row(JointWork& w, const Vec3& direction, double error, double bend_s2,
+void angular_row(JointWork& w, const Vec3& direction, double error, double error_acceleration,
                  double softness = 0) {
   JointRow& row = w.row[static_cast<std::size_t>(w.rows++)];
   row.push.setZero();
@@ -47,17 +48,17 @@ void angular_row(JointWork& w, const Vec3& direction, double error, double bend_
   row.angular_a = w.root_a.transpose() * direction.cast<float>();
   row.angular_b = w.root_b.transpose() * direction.cast<float>();
   row.error = error;
-  row.bend_s2 = bend_s2;
+  row.error_acceleration = error_acceleration;
   row.softness = softness;
 }
 
-/// How much a step that is explicit in how the pull turns with the bodies overdoes it: h²·K/I of
-/// the lighter side, as if it were pulled likewise at its other end; 12·T·h²/(m·L) for a rod. Over
-/// 4 it grows. The arm of that side goes to `arm_m`.
+/// Returns the stiffness h²·K/I of a tension that an explicit step turns with the bodies: that of
+/// the stiffer side, as if it were pulled alike at its other end; 12·T·h²/(m·L) for a rod. Above 4
+/// the step is unstable. `arm_m` is set to the arm of that side.
 double tension_stiffness(const JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a,
                          const Vec3& arm_b, double& arm_m) {
   double most = 0;
-  const auto look = [&](Vec3f JointRow::*angular, const Vec3& arm) {
+  const auto consider = [&](Vec3f JointRow::*angular, const Vec3& arm) {
     const double length_m = arm.norm();
     double turns = 0;
     for (std::size_t i = 0; i < 3; ++i) turns += double{(w.row[i].*angular).squaredNorm()};
@@ -65,24 +66,23 @@ double tension_stiffness(const JointWork& w, double h_s, double pull_Ns, const V
     most = turns * h_s * pull_Ns / length_m;
     arm_m = length_m;
   };
-  look(&JointRow::angular_a, arm_a), look(&JointRow::angular_b, arm_b);
+  consider(&JointRow::angular_a, arm_a), consider(&JointRow::angular_b, arm_b);
   return most;
 }
 
-/// Whether b does not turn against a.
+/// True if b does not turn against a.
 bool is_held(JointDesc::Kind kind) {
   return kind == JointDesc::Kind::kFixed || kind == JointDesc::Kind::kPlastic;
 }
 
-/// Rows that resist what still turns: a torque and its counterpart, as much as keeps the substep
-/// stable.
+/// Adds rows that damp free rotation: a torque and its counterpart that keep the substep stable.
 void damp(JointWork& w, double h_s, double pull_Ns, const Vec3& arm_a, const Vec3& arm_b,
           const Vec3& axis) {
   double arm_m = 0;
   const double stiffness = tension_stiffness(w, h_s, pull_Ns, arm_a, arm_b, arm_m);
   if (stiffness <= 1 || is_held(w.kind)) return;
-  const double damping =
-      0.5 * h_s * pull_Ns * arm_m * (1 - 1 / stiffness) * std::max(1.0, stiffness / kStiffest);
+  const double damping = 0.5 * h_s * pull_Ns * arm_m * (1 - 1 / stiffness) *
+                         std::max(1.0, stiffness / kMaxTensionStiffness);
   if (w.kind == JointDesc::Kind::kHinge) {
     angular_row(w, axis, 0, 0, 1 / damping);
   } else {
@@ -135,7 +135,7 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
   w.kind = desc.kind;
   const auto take = [&](BodySlot body, std::int32_t& row, float& inverse_mass, Mat3f& root) {
     if (body.none()) return;
-    if (bodies.carries(body)) row = at.kinematic_row[body], root = at.root_W[body];
+    if (bodies.is_moving_kinematic(body)) row = at.kinematic_row[body], root = at.root_W[body];
     if (!bodies.awake(body)) return;
     row = static_cast<std::int32_t>(row_of(body));
     inverse_mass = bodies.inverse_mass[body];
@@ -154,7 +154,7 @@ JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bod
   w.length_m = desc.length_m;
   w.breaking_N = desc.breaking_N, w.breaking_Nm = desc.breaking_Nm;
   w.impulse = joint.impulse;
-  if (w.kind == JointDesc::Kind::kRope) w.bounds[0].most = 0;  // it pulls and never pushes
+  if (w.kind == JointDesc::Kind::kRope) w.bounds[0].most = 0;  // a rope only pulls
   if (w.kind == JointDesc::Kind::kPlastic) {
     const SectionStrength& strength = desc.strength;
     w.axes = a.rotation * strength.axes_R;
@@ -168,8 +168,9 @@ void refresh_rows(JointWork& w, double h_s, const BodyRow* rows) {
   const Quat rotation_a = rotation_of(w.root_a, rows[w.row_a]),
              rotation_b = rotation_of(w.root_b, rows[w.row_b]);
   const Vec3 arm_a = rotation_a * w.arm_a, arm_b = rotation_b * w.arm_b;
-  const Vec3 way = (linear(rows[w.row_b].position) - linear(rows[w.row_a].position)).cast<double>();
-  const Vec3 gap = w.gap + way + (arm_b - w.arm_b) - (arm_a - w.arm_a);
+  const Vec3 displacement =
+      (linear(rows[w.row_b].position) - linear(rows[w.row_a].position)).cast<double>();
+  const Vec3 gap = w.gap + displacement + (arm_b - w.arm_b) - (arm_a - w.arm_a);
   const Vec3 spin_a = spin_of(w.root_a, rows[w.row_a], h_s),
              spin_b = spin_of(w.root_b, rows[w.row_b], h_s);
   const Vec3 bend = spin_b.cross(spin_b.cross(arm_b)) - spin_a.cross(spin_a.cross(arm_a));
@@ -186,8 +187,8 @@ void refresh_rows(JointWork& w, double h_s, const BodyRow* rows) {
     w.held_rows = w.rows;
     return;
   }
-  // Both ends push at one point, midway between the anchors: across a gap an impulse and its
-  // counterpart would be a couple, which spins the pair up or down.
+  // The impulses on both ends act at one point, midway between the anchors: across a gap, an
+  // impulse and its counterpart would be a couple and change the angular momentum.
   const Vec3 to_a = arm_a + 0.5 * gap, to_b = arm_b - 0.5 * gap;
   const Mat3 axes = w.kind == JointDesc::Kind::kPlastic ? Mat3(rotation_a * w.axes) : w.axes;
   const auto along = [&](int i, const Vec3& v) { return axes.col(i).dot(v); };

@@ -1,8 +1,8 @@
-// What a joint asks of its bodies: up to six rows of a Jacobian and their errors.
+// The rows of a joint: up to six rows of a Jacobian, and their errors.
 //
-// As with contacts, angular motion is in root space (Bodies::root_B). Unlike contacts, the rows are
-// worked out anew in every substep, from arms that turn with the bodies: a velocity that is put
-// right at the new place keeps the energy of a swing (RATTLE, Andersen 1983, in effect).
+// As with contacts, angular motion is in root space (Bodies::root_B). Unlike those of contacts, the
+// rows are computed in each substep, from arms that turn with the bodies: correcting the velocity
+// at the new pose keeps the energy of a swing (RATTLE, Andersen 1983, in effect).
 #pragma once
 
 #include <array>
@@ -15,12 +15,13 @@
 namespace sunder::solver {
 
 struct JointRow {
-  Vec3f push = Vec3f::Zero();                                  ///< On b; linear.
-  Vec3f turn = Vec3f::Zero();                                  ///< On b; of an angular row.
+  Vec3f push = Vec3f::Zero();  ///< Direction of a linear row, on b.
+  Vec3f turn = Vec3f::Zero();  ///< Direction of an angular row, on b.
   Vec3f angular_a = Vec3f::Zero(), angular_b = Vec3f::Zero();  ///< Root space.
   double error = 0;                                            ///< m or rad.
-  double bend_s2 = 0;  ///< What motion at a constant rate does to the error: its second derivative.
-  double softness = 0;  ///< Above 0: no more than a damper, which has so much per impulse.
+  /// Second derivative of the error at constant angular velocities.
+  double error_acceleration = 0;
+  double softness = 0;  ///< Above 0: the row is a damper, with this much speed per impulse.
 };
 
 /// An impulse on b and its counterpart on a.
@@ -34,67 +35,72 @@ struct JointPush {
 
 using Vec6 = Eigen::Matrix<double, kMostJointRows, 1>;
 
-/// What a plastic joint is besides: see plastic.h.
+/// Data of a plastic joint: see plastic.h.
 struct PlasticWork {
-  Vec6 strength = Vec6::Ones();  ///< Of its section, by row: N and N·m.
-  Vec6 mirror = Vec6::Zero();    ///< That turns the rows: of length √2, or none.
+  Vec6 strength = Vec6::Ones();  ///< Strength of the section by row, N and N·m.
+  Vec6 mirror = Vec6::Zero();  ///< Householder vector that turns the rows: of length √2, or zero.
   PlasticState state;
-  double softness = 0;           ///< What its flow makes of the rows beside.
-  Quat turn = Quat::Identity();  ///< That flowed in the step, in the axes of the section,
-  Vec3 drawn = Vec3::Zero();     ///< likewise,
-  double work_J = 0;             ///< and what it took.
-  Vec3 shift_b = Vec3::Zero();   ///< Of the anchor on b, as b lay in these axes as the step began.
+  double softness = 0;            ///< Softness of the other rows by plastic flow.
+  Quat turn = Quat::Identity();   ///< Plastic rotation in the step, in the axes of the section.
+  Vec3 extension = Vec3::Zero();  ///< Plastic displacement in the step, in these axes.
+  double work_J = 0;              ///< Plastic work in the step.
+  /// Displacement of the anchor on b, in these axes as b lay at the start of the step.
+  Vec3 shift_b = Vec3::Zero();
 };
 
-/// A joint within a step.
+/// State of a joint within a step.
 struct JointWork {
   std::uint32_t joint = 0;
   JointDesc::Kind kind = JointDesc::Kind::kBall;
   bool broken = false;
   int rows = 0;
-  int place_rows = 0;                 ///< The first of them; the others are angular.
-  int held_rows = 0;                  ///< Those that hold; what comes after them damps.
-  std::int32_t row_a = 0, row_b = 0;  ///< In BodyRow; 0: immovable; less: kinematic.
+  int place_rows = 0;                 ///< The first of the rows; the others are angular.
+  int held_rows = 0;                  ///< Rows that constrain; those after them damp.
+  std::int32_t row_a = 0, row_b = 0;  ///< Index of BodyRow; 0: immovable; below 0: kinematic.
   float inverse_mass_a = 0, inverse_mass_b = 0;
-  Mat3f root_a = Mat3f::Zero(), root_b = Mat3f::Zero();  ///< In W, frozen for the step.
-  Vec3 gap = Vec3::Zero();  ///< From anchor a to anchor b when the step began.
-  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();    ///< From the centres of mass, likewise.
-  Vec3 axis_a = Vec3::Zero(), axis_b = Vec3::Zero();  ///< kHinge, likewise.
-  Vec3 side_a = Vec3::Zero();                         ///< kHinge: across its axis, fixed to a.
-  Mat3 axes = Mat3::Identity();   ///< Of its rows; kPlastic: those of its section, fixed to a.
-  Quat twist = Quat::Identity();  ///< kFixed, kPlastic: how far b is turned from where a wants it.
-  double reach_m = 0;             ///< Of the smaller body that moves.
+  Mat3f root_a = Mat3f::Zero(), root_b = Mat3f::Zero();  ///< In W, constant within the step.
+  Vec3 gap = Vec3::Zero();  ///< From anchor a to anchor b at the start of the step.
+  /// From the centres of mass, at the start of the step.
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();
+  Vec3 axis_a = Vec3::Zero(), axis_b = Vec3::Zero();  ///< kHinge: at the start of the step.
+  Vec3 side_a = Vec3::Zero();  ///< kHinge: direction across its axis, fixed to a.
+  /// Directions of its rows; kPlastic: axes of the section, fixed to a.
+  Mat3 axes = Mat3::Identity();
+  /// kFixed, kPlastic: rotation of b from its rest rotation against a.
+  Quat twist = Quat::Identity();
+  double reach_m = 0;  ///< Reach of the smaller moving body.
   double length_m = 0, breaking_N = 0, breaking_Nm = 0;
   std::array<JointRow, kMostJointRows> row;
-  std::array<RowBounds, kMostJointRows> bounds;  ///< Of impulses; kPlastic: along turned rows.
+  /// Bounds of the impulses; kPlastic: along turned rows.
+  std::array<RowBounds, kMostJointRows> bounds;
   PlasticWork plastic;
-  std::array<double, kMostJointRows> impulse = {};       ///< Of this substep.
-  std::array<double, kMostJointRows> kept_impulse = {};  ///< While the end of the step is settled.
-  JointImpulse total;                                    ///< Over the step.
+  std::array<double, kMostJointRows> impulse = {};  ///< By row, of this substep.
+  /// Stored while the end of the step is solved.
+  std::array<double, kMostJointRows> kept_impulse = {};
+  JointImpulse total;  ///< Over the step.
 
-  /// What the impulses of this substep would do along rows that have turned since, less what they
-  /// did: owed to the next substep, which starts from them.
-  JointPush owed;
+  /// Effect of the substep's impulses along the current rows less that along the old ones; applied
+  /// in the next substep, which starts with these impulses.
+  JointPush pending;
 
-  /// Speed along row i.
+  /// Returns the speed along row i.
   double speed(int i, const BodyRow* body_rows) const;
-  /// Impulses along all rows, as they act on the bodies.
+  /// Returns the impulses `by` along all rows, as they act on the bodies.
   JointPush sum(std::span<const double> by) const;
   void apply(const JointPush& push, BodyRow* body_rows) const;
 };
 
-/// How far a body has turned since the step began.
+/// Returns the rotation of a body since the step began.
 Quat rotation_of(const Mat3f& root, const BodyRow& row);
-/// Where the bodies of a step are: roots in W, and rows of kinematic bodies on their way, none if
-/// there are none.
+/// Bodies of a step: roots in W, and rows of moving kinematic bodies; empty if there are none.
 struct JointStep {
   SpanByBody<const Mat3f> root_W;
   SpanByBody<const std::int32_t> kinematic_row;
 };
-/// A joint as the step begins.
+/// Returns the state of a joint at the start of a step.
 JointWork begin_joint(const Joint& joint, std::uint32_t index, const Bodies& bodies,
                       const JointStep& at);
-/// Rows and errors as the bodies lie and move now, for a substep of h_s.
+/// Updates rows and errors for the current poses and velocities, for a substep of h_s.
 void refresh_rows(JointWork& work, double h_s, const BodyRow* rows);
 
 }  // namespace sunder::solver

@@ -10,18 +10,18 @@
 namespace sunder::solver {
 namespace {
 
-// A group's band: what one thread factors in every substep.
+// Maximum size of a group's band, which one thread factors in each substep.
 constexpr std::uint32_t kMostRows = 1500;
 constexpr std::uint32_t kMostEntries = 20000;
 constexpr std::uint32_t kNoRow = 0xffffffff;
-constexpr std::uint8_t kMostColors = 64;  // beyond: one thread for all
+constexpr std::uint8_t kMostColors = 64;  // groups without a colour run in one thread
 
-/// Those that damp included.
+/// Returns the maximum number of rows, including those that damp.
 int most_rows(JointDesc::Kind kind) {
   return kind == JointDesc::Kind::kDistance || kind == JointDesc::Kind::kRope ? 1 : kMostJointRows;
 }
 
-/// The bodies of a joint that move.
+/// Visits the awake bodies of a joint.
 template <class Visit>
 void for_moving(const Joint& joint, const Bodies& bodies, const Visit& visit) {
   if (!joint.body_a.none() && bodies.awake(joint.body_a)) visit(joint.body_a);
@@ -36,7 +36,7 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   groups_.clear();
   colors_.clear();
   joined_.clear();
-  carried_.clear();
+  driven_.clear();
   is_first_.clear();
   for (std::uint32_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].holds()) continue;
@@ -48,8 +48,10 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
     if (first.none()) continue;
     active_.push_back(i);
     joined_.emplace_back(first, last);
-    const auto carries = [&](BodySlot body) { return !body.none() && bodies.carries(body); };
-    if (carries(joints[i].body_a) || carries(joints[i].body_b)) carried_.push_back(first);
+    const auto carries = [&](BodySlot body) {
+      return !body.none() && bodies.is_moving_kinematic(body);
+    };
+    if (carries(joints[i].body_a) || carries(joints[i].body_b)) driven_.push_back(first);
   }
   works_.resize(active_.size());
   if (active_.empty()) return;
@@ -59,22 +61,22 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   color_groups(bodies, joints);
 }
 
-/// Marks what swings free, and then all that joints hold as in contact.
+/// Marks free-hanging bodies, then all bodies in joints as in contact.
 void JointSolver::mark_free(const Bodies& bodies, SpanByBody<std::uint8_t> in_contact) {
   DisjointSets islands(bodies.size());
   for (const auto& [a, b] : joined_) islands.join(a.value, b.value);
   ByBody<std::uint8_t> touches(bodies.size(), 0);
   for (const auto& [a, b] : joined_)
     if (in_contact[a] || in_contact[b]) touches[BodySlot(islands.root(a.value))] = 1;
-  swings_free_.assign(bodies.size(), 0);
+  hangs_free_.assign(bodies.size(), 0);
   for (const auto& [a, b] : joined_) {
-    swings_free_[a] = swings_free_[b] = !touches[BodySlot(islands.root(a.value))];
+    hangs_free_[a] = hangs_free_[b] = !touches[BodySlot(islands.root(a.value))];
     in_contact[a] = in_contact[b] = 1;
   }
 }
 
-/// Neighbour after neighbour, from one at an end, and backwards (reverse Cuthill-McKee), which
-/// makes a narrow band of any chain whatever order its joints were made in.
+/// Orders connected joints from an end on, neighbours first, and reversed (reverse Cuthill-McKee):
+/// any chain gets a narrow band, whatever the order of its joints.
 void JointSolver::order_joints(const Bodies& bodies, const Joints& joints) {
   ByBody<std::vector<std::uint32_t>> of_body(bodies.size());
   for (const std::uint32_t i : active_)
@@ -97,20 +99,20 @@ void JointSolver::order_joints(const Bodies& bodies, const Joints& joints) {
       });
     }
     is_first_.resize(active_.size(), 0);
-    is_first_.back() = 1;  // backwards
+    is_first_.back() = 1;  // reversed
   }
   std::ranges::reverse(active_);
   std::ranges::reverse(is_first_);
 }
 
-/// A band ends where nothing goes on, or where it would be too large.
+/// Splits the ordered joints into groups, at gaps and where a band would be too large.
 void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
-  ByBody<std::uint32_t> row_of_body(bodies.size(), kNoRow);  // first row that moves it
+  ByBody<std::uint32_t> row_of_body(bodies.size(), kNoRow);  // first row that moves a body
   std::uint32_t rows = 0, entries = 0, base = 0;
   for (std::uint32_t at = 0; at < active_.size(); ++at) {
     const Joint& joint = joints[active_[at]];
     const auto n = static_cast<std::uint32_t>(most_rows(joint.desc.kind));
-    std::uint32_t width = 0;  // of the envelope before its own rows
+    std::uint32_t width = 0;  // width of the envelope before the joint's own rows
     for_moving(joint, bodies, [&](BodySlot body) {
       const std::uint32_t first = row_of_body[body];
       if (first != kNoRow && first >= base) width = std::max(width, base + rows - first);
@@ -122,7 +124,7 @@ void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
       groups_.emplace_back();
       groups_.back().first = at;
       for_moving(joint, bodies,
-                 [&](BodySlot body) { groups_.back().swings_free = swings_free_[body]; });
+                 [&](BodySlot body) { groups_.back().hangs_free = hangs_free_[body]; });
     }
     for_moving(joint, bodies, [&](BodySlot body) {
       if (row_of_body[body] == kNoRow || row_of_body[body] < base) row_of_body[body] = base + rows;
@@ -155,26 +157,26 @@ void JointSolver::color_groups(const Bodies& bodies, const Joints& joints) {
 }
 
 void JointSolver::begin(std::uint32_t i, const StepContext& step, const Bodies& bodies,
-                        const Joints& joints, const JointStep& at_hand, const BodyRow* rows) {
+                        const Joints& joints, const JointStep& step_bodies, const BodyRow* rows) {
   JointGroup& group = groups_[i];
   for (std::uint32_t at = group.first; at < group.first + group.count; ++at)
-    works_[at] = begin_joint(joints[active_[at]], active_[at], bodies, at_hand);
+    works_[at] = begin_joint(joints[active_[at]], active_[at], bodies, step_bodies);
   begin_group(group, works(group), step, rows);
 }
 
-void JointSolver::settle(std::uint32_t i, const StepContext& step, const Bodies& bodies,
-                         Joints& joints, const JointStep& at_hand, BodyRow* rows) {
+void JointSolver::solve_final(std::uint32_t i, const StepContext& step, const Bodies& bodies,
+                              Joints& joints, const JointStep& step_bodies, BodyRow* rows) {
   for (JointWork& work : works(groups_[i])) {
     if (work.broken) continue;
-    if (work.kind == JointKind::kPlastic) keep_flow(work, joints[work.joint]);
+    if (work.kind == JointKind::kPlastic) store_flow(work, joints[work.joint]);
     const JointWork solved =
-        std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, at_hand));
+        std::exchange(work, begin_joint(joints[work.joint], work.joint, bodies, step_bodies));
     work.impulse = solved.impulse;
     work.total = solved.total;
     work.bounds = solved.bounds;
     work.plastic = solved.plastic;
   }
-  settle_group(groups_[i], works(groups_[i]), step, rows);
+  solve_group_final(groups_[i], works(groups_[i]), step, rows);
 }
 
 Vec3 JointSolver::finish(Bodies& bodies, Joints& joints) {

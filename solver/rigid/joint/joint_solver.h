@@ -1,10 +1,10 @@
 // Solves joints beside contacts, in the same stages and on the same rows.
 //
-// Joints that hang together are solved exactly, a group at a time: the equations of a chain form a
-// narrow band, which is factored in a time that grows with its length, so that a chain does not
-// stretch however heavy what hangs on it. Groups meet contacts, and each other where one would be
-// too large, by Gauss-Seidel. Groups of one colour move different bodies and run in parallel.
-// Read first: JointSolver::group_joints(), then solve_group() in joint_group.h.
+// Connected joints are solved together by a direct method: the equations of a chain have a narrow
+// band, and the time to factor it is linear in its length, so a chain does not stretch whatever its
+// load. Groups are coupled to contacts, and to each other where one would be too large, by
+// Gauss-Seidel. Groups of one colour move different bodies and run in parallel. Read first:
+// JointSolver::group_joints(), then solve_group() in joint_group.h.
 #pragma once
 
 #include <span>
@@ -18,47 +18,47 @@ namespace sunder::solver {
 
 class JointSolver {
  public:
-  /// Groups the joints that hold something awake, and marks their bodies in `in_contact`.
+  /// Groups the joints of awake bodies, and marks these bodies in `in_contact`.
   void collect(const Bodies& bodies, const Joints& joints, SpanByBody<std::uint8_t> in_contact);
   bool empty() const { return groups_.empty(); }
-  /// The groups of each colour: one after another, those of one in parallel.
+  /// Groups by colour: colours run one after another, the groups of one in parallel.
   const std::vector<StageItems>& colors() const { return colors_; }
-  /// The work on group i; `rows` and `at_hand` are those of the step.
+  /// Work on group i; `rows` and `step_bodies` are those of the step.
   void begin(std::uint32_t i, const StepContext& step, const Bodies& bodies, const Joints& joints,
-             const JointStep& at_hand, const BodyRow* rows);
+             const JointStep& step_bodies, const BodyRow* rows);
   void warm_start(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     warm_start_group(works(groups_[i]), step, rows);
   }
-  void push(std::uint32_t i, const StepContext& step, BodyRow* rows) {
+  void solve_biased(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, true, rows);
   }
   void refresh(std::uint32_t i, const StepContext& step, const BodyRow* rows) {
     refresh_group(groups_[i], works(groups_[i]), step, rows);
   }
-  void relax(std::uint32_t i, const StepContext& step, BodyRow* rows) {
+  void solve_relaxed(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, false, rows);
   }
-  /// Once all contacts have had their say in a substep.
-  void test(std::uint32_t i, const StepContext& step, BodyRow* rows) {
-    test_group(groups_[i], works(groups_[i]), step, rows);
+  /// Must be called at the end of a substep, after all sweeps of contacts.
+  void break_overloaded(std::uint32_t i, const StepContext& step, BodyRow* rows) {
+    break_overloaded_joints(groups_[i], works(groups_[i]), step, rows);
   }
-  /// Bodies keep this share of a substep's impulses, by row: so do joints, which then hold again.
-  void scale_impulses(std::uint32_t i, const StepContext& step, const float* share_of_row,
+  /// Scales the substep's impulses by the scale of their bodies, by row, and solves the joints
+  /// again.
+  void scale_impulses(std::uint32_t i, const StepContext& step, const float* scale_of_row,
                       BodyRow* rows) {
-    scale_group(groups_[i], works(groups_[i]), step, share_of_row, rows);
+    scale_group(groups_[i], works(groups_[i]), step, scale_of_row, rows);
   }
-  /// Whether a body hangs in joints, and so does all that it hangs together with, which touches
-  /// nothing.
-  bool swings_free(BodySlot body) const { return !groups_.empty() && swings_free_[body]; }
-  /// As the bodies lie and move when the step is over; what flowed goes into the joints.
-  void settle(std::uint32_t i, const StepContext& step, const Bodies& bodies, Joints& joints,
-              const JointStep& at_hand, BodyRow* rows);
-  /// What hangs together and may move, a joint at a time: a joint to the world twice the same body.
+  /// True if a body is held by joints, and no body connected to it touches anything.
+  bool hangs_free(BodySlot body) const { return !groups_.empty() && hangs_free_[body]; }
+  /// Solves for the poses and velocities at the end of the step; stores plastic flow in the joints.
+  void solve_final(std::uint32_t i, const StepContext& step, const Bodies& bodies, Joints& joints,
+                   const JointStep& step_bodies, BodyRow* rows);
+  /// Pairs of moving bodies, one per joint; a joint to the world has the same body twice.
   const std::vector<std::pair<BodySlot, BodySlot>>& joined() const { return joined_; }
-  /// Of that, what hangs on something kinematic on its way, which does work on it.
-  const std::vector<BodySlot>& carried() const { return carried_; }
-  /// Hands impulses back; joints that bore too much go. The answer is the impulse on bodies from
-  /// what cannot move.
+  /// Bodies of these joints that are held by a moving kinematic body, which does work on them.
+  const std::vector<BodySlot>& driven() const { return driven_; }
+  /// Stores the impulses and removes broken joints. Returns the impulse on bodies from those that
+  /// cannot move.
   Vec3 finish(Bodies& bodies, Joints& joints);
 
  private:
@@ -71,13 +71,13 @@ class JointSolver {
   }
 
   std::vector<std::pair<BodySlot, BodySlot>> joined_;
-  std::vector<BodySlot> carried_;
-  std::vector<std::uint32_t> active_;   ///< Joints that hang together one after another.
-  std::vector<std::uint8_t> is_first_;  ///< Of those that hang together; as `active_`.
+  std::vector<BodySlot> driven_;
+  std::vector<std::uint32_t> active_;   ///< Indices of joints; connected ones are consecutive.
+  std::vector<std::uint8_t> is_first_;  ///< 1: first of connected joints; parallel to `active_`.
   std::vector<JointGroup> groups_;      ///< By colour.
   std::vector<StageItems> colors_;
-  ByBody<std::uint8_t> swings_free_;
-  std::vector<JointWork> works_;  ///< As `active_`.
+  ByBody<std::uint8_t> hangs_free_;
+  std::vector<JointWork> works_;  ///< Parallel to `active_`.
 };
 
 }  // namespace sunder::solver

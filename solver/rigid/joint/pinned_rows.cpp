@@ -8,10 +8,11 @@
 namespace sunder::solver {
 namespace {
 
-constexpr int kPinRounds = 32;
-constexpr double kAtBound = 1e-9;  // of it: rounding
+constexpr int kMaxPinRounds = 32;
+constexpr double kBoundRounding = 1e-9;  // relative, for rounding
 
-/// In eight sums, which go side by side, and are the same on any processor.
+/// Dot product in eight partial sums, which run in parallel and give the same bits on any
+/// processor.
 double dot(std::span<const double> a, std::span<const double> b) {
   std::array<double, 8> sums{};
   const std::size_t whole = a.size() / 8 * 8;
@@ -52,25 +53,27 @@ std::vector<double> Envelope::times(std::span<const double> x) const {
   return product;
 }
 
-/// Where it starts from: the impulses as they are, or none if these make energy.
-void PinnedRows::start(const Envelope& response, std::span<const double> asked) {
+/// Sets the initial impulses: the current ones, or zero if these make energy.
+void PinnedRows::start(const Envelope& response, std::span<const double> target) {
   const std::size_t n = bounds.size();
-  impulse_.resize(n), way_.resize(n);
+  impulse_.resize(n), direction_.resize(n);
   for (std::size_t i = 0; i < n; ++i) impulse_[i] = bounds[i].now;
-  asked_ = response.times(impulse_);  // of impulses that start from none
+  target_ = response.times(impulse_);  // for impulses that start at zero
   for (std::size_t i = 0; i < n; ++i) {
-    asked_[i] += asked[i];
+    target_[i] += target[i];
     impulse_[i] = bounds[i].clamp(impulse_[i]);
   }
   find_excess(response);
-  if (dot(impulse_, excess_) > dot(impulse_, asked_)) {
+  if (dot(impulse_, excess_) > dot(impulse_, target_)) {
     std::ranges::fill(impulse_, 0);
     find_excess(response);
   }
   for (std::size_t i = 0; i < n; ++i) {
     RowBounds& row = bounds[i];
-    const bool high = impulse_[i] >= row.most - kAtBound * std::abs(row.most) && excess_[i] < 0;
-    const bool low = impulse_[i] <= row.least + kAtBound * std::abs(row.least) && excess_[i] > 0;
+    const bool high =
+        impulse_[i] >= row.most - kBoundRounding * std::abs(row.most) && excess_[i] < 0;
+    const bool low =
+        impulse_[i] <= row.least + kBoundRounding * std::abs(row.least) && excess_[i] > 0;
     row.pin = high || row.least == row.most ? 1 : low ? -1 : 0;
     if (row.pin != 0) impulse_[i] = row.bound();
   }
@@ -78,11 +81,10 @@ void PinnedRows::start(const Envelope& response, std::span<const double> asked) 
 
 void PinnedRows::find_excess(const Envelope& response) {
   excess_ = response.times(impulse_);
-  for (std::size_t i = 0; i < bounds.size(); ++i) excess_[i] -= asked_[i];
+  for (std::size_t i = 0; i < bounds.size(); ++i) excess_[i] -= target_[i];
 }
 
-/// Of the rows that are free, if they are others than last time: from the first of these on, as
-/// rows hang on those before them alone.
+/// Factors the free rows from the first one on that changed, as a row depends only on those before.
 void PinnedRows::factor(const Envelope& response) {
   std::uint32_t from = 0;
   if (!std::exchange(stale_, false)) {
@@ -102,29 +104,31 @@ void PinnedRows::factor(const Envelope& response) {
   factored_.factor(from);
 }
 
-/// Goes the way of the free rows up to the first bound, and pins what meets it; whether none does.
-bool PinnedRows::go() {
+/// Steps along the direction of the free rows up to the first bound, and pins the rows that reach
+/// it. Returns true if none does.
+bool PinnedRows::step_to_bound() {
   const auto share_to_bound = [&](std::size_t i) {
     const RowBounds& row = bounds[i];
-    const double to = impulse_[i] + way_[i];
-    const bool over = to > row.most + kAtBound * std::abs(row.most) ||
-                      to < row.least - kAtBound * std::abs(row.least);
+    const double to = impulse_[i] + direction_[i];
+    const bool over = to > row.most + kBoundRounding * std::abs(row.most) ||
+                      to < row.least - kBoundRounding * std::abs(row.least);
     if (row.pin != 0 || !over) return 1.0;
-    return std::max(0.0, ((way_[i] > 0 ? row.most : row.least) - impulse_[i]) / way_[i]);
+    return std::max(0.0,
+                    ((direction_[i] > 0 ? row.most : row.least) - impulse_[i]) / direction_[i]);
   };
   double share = 1;
   for (std::size_t i = 0; i < bounds.size(); ++i) share = std::min(share, share_to_bound(i));
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     RowBounds& row = bounds[i];
     const bool meets = share < 1 && share_to_bound(i) <= share;
-    if (meets) row.pin = way_[i] > 0 ? 1 : -1;
-    impulse_[i] = meets ? row.bound() : impulse_[i] + share * way_[i];
+    if (meets) row.pin = direction_[i] > 0 ? 1 : -1;
+    impulse_[i] = meets ? row.bound() : impulse_[i] + share * direction_[i];
   }
   return share == 1;
 }
 
-/// Whether any was pinned that would go back.
-bool PinnedRows::let_go() {
+/// Frees the pinned rows that would move off their bound; returns true if there are any.
+bool PinnedRows::free_rows() {
   bool any = false;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     RowBounds& row = bounds[i];
@@ -135,18 +139,19 @@ bool PinnedRows::let_go() {
   return any;
 }
 
-void PinnedRows::solve(const Envelope& response, std::span<double> asked) {
-  start(response, asked);
-  for (int round = 0; round < kPinRounds; ++round) {
+void PinnedRows::solve(const Envelope& response, std::span<double> target) {
+  start(response, target);
+  for (int round = 0; round < kMaxPinRounds; ++round) {
     factor(response);
     find_excess(response);
-    for (std::size_t i = 0; i < way_.size(); ++i) way_[i] = bounds[i].pin != 0 ? 0 : -excess_[i];
-    factored_.solve(way_);
-    if (!go()) continue;
+    for (std::size_t i = 0; i < direction_.size(); ++i)
+      direction_[i] = bounds[i].pin != 0 ? 0 : -excess_[i];
+    factored_.solve(direction_);
+    if (!step_to_bound()) continue;
     find_excess(response);
-    if (!let_go()) break;
+    if (!free_rows()) break;
   }
-  for (std::size_t i = 0; i < bounds.size(); ++i) asked[i] = impulse_[i] - bounds[i].now;
+  for (std::size_t i = 0; i < bounds.size(); ++i) target[i] = impulse_[i] - bounds[i].now;
 }
 
 }  // namespace sunder::solver

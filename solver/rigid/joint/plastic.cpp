@@ -9,27 +9,27 @@
 namespace sunder::solver {
 namespace {
 
-constexpr int kAlong = 1;            // turned row; 0 is axial
-constexpr int kBending = 4;          // section row: where it bears little, it goes along this
-constexpr double kSurface = 0.02;    // of what the section bears: nearer is at the surface
-constexpr double kDirection = 0.25;  // of it, at least, to have a direction
+constexpr int kAlong = 1;                  // turned row of the transverse impulse; 0 is axial
+constexpr int kBending = 4;                // section row, direction of a small transverse impulse
+constexpr double kSurfaceDistance = 0.02;  // from the ball, that counts as on its surface
+constexpr double kMinDirectedImpulse = 0.25;  // minimum transverse impulse that has a direction
 
-/// By Householder's reflection, which is its own inverse.
+/// Householder's reflection, which is its own inverse.
 Vec6 mirrored(const PlasticWork& plastic, const Vec6& x) {
   return x - plastic.mirror.dot(x) * plastic.mirror;
 }
 
 Vec6 impulse(const JointWork& work) { return Vec6(work.impulse.data()); }
 
-/// What is left across, of what the section bears, beside an axial part.
-double radius(double axial) { return std::max(kSurface, 1 - axial * axial); }
+/// Returns the radius of the ball of transverse impulses for an axial impulse.
+double radius(double axial) { return std::max(kSurfaceDistance, 1 - axial * axial); }
 
-/// Speeds or errors along the turned rows.
+/// Returns speeds or errors along the turned rows.
 Vec6 turned(const PlasticWork& plastic, const Vec6& along_section) {
   return mirrored(plastic, plastic.strength.cwiseProduct(along_section));
 }
 
-/// Impulses along them.
+/// Returns the impulses along the turned rows.
 Vec6 turned_impulse(const JointWork& work) {
   return mirrored(work.plastic, impulse(work).cwiseQuotient(work.plastic.strength));
 }
@@ -40,7 +40,7 @@ Vec6 turned_speed(const JointWork& work, const BodyRow* rows) {
   return turned(work.plastic, speed);
 }
 
-/// Whether the section gives way along its axis, or else across it.
+/// True if the section flows along its axis, or across it for other rows.
 bool flows(const JointWork& work, int row) {
   if (row < kAlong) return work.bounds[0].pin != 0;
   const auto across = std::span(work.bounds).subspan(kAlong);
@@ -60,12 +60,12 @@ void turn_rows(const JointWork& of, const JointWork& to, Mat6& response) {
     response(i, i) += of.plastic.softness;
 }
 
-void turn_asked(JointWork& work, std::span<double> asked) {
-  const Vec6 now = turned_impulse(work), turned_asked = turned(work.plastic, Vec6(asked.data()));
+void turn_target(JointWork& work, std::span<double> target) {
+  const Vec6 now = turned_impulse(work), turned_target = turned(work.plastic, Vec6(target.data()));
   for (std::size_t i = 0; i < kMostJointRows; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     work.bounds[i].now = now[at];
-    asked[i] = turned_asked[at] - (at > kAlong ? work.plastic.softness * now[at] : 0);
+    target[i] = turned_target[at] - (at > kAlong ? work.plastic.softness * now[at] : 0);
   }
 }
 
@@ -74,13 +74,13 @@ void turn_back(const JointWork& work, std::span<double> change) {
   Vec6::Map(change.data()) = plastic.strength.cwiseProduct(mirrored(plastic, Vec6(change.data())));
 }
 
-void aim(JointWork& work, double h_s) {
+void align_rows(JointWork& work, double h_s) {
   PlasticWork& plastic = work.plastic;
   Vec6 part = impulse(work).cwiseQuotient(h_s * plastic.strength);
   const double bears = radius(plastic.state.axial);
   part[0] = 0;
   const double load = part.norm() / bears;
-  Vec6 mirror = load > kDirection ? Vec6(part / part.norm()) : Vec6(Vec6::Unit(kBending));
+  Vec6 mirror = load > kMinDirectedImpulse ? Vec6(part / part.norm()) : Vec6(Vec6::Unit(kBending));
   mirror[kAlong] -= 1;
   const double square = mirror.squaredNorm();
   plastic.mirror = square > 0 ? Vec6(std::sqrt(2 / square) * mirror) : Vec6(Vec6::Zero());
@@ -90,26 +90,26 @@ void aim(JointWork& work, double h_s) {
     work.bounds[i] = {0, -h_s * bears, h_s * bears, 0};
 }
 
-bool is_over(const JointWork& work, double h_s) {
+bool exceeds_strength(const JointWork& work, double h_s) {
   Vec6 part = impulse(work).cwiseQuotient(h_s * work.plastic.strength);
   const double bears = radius(work.plastic.state.axial);
   part[0] = 0;
-  return part.norm() > (1 + kSurface) * bears;
+  return part.norm() > (1 + kSurfaceDistance) * bears;
 }
 
-void note_flow(JointWork& work, const BodyRow* rows) {
+void record_flow_speed(JointWork& work, const BodyRow* rows) {
   const bool along = work.bounds[kAlong].pin != 0;
   work.plastic.state.speed = along ? std::abs(turned_speed(work, rows)[kAlong]) : 0;
 }
 
-void note_axial(JointWork& work, double h_s) {
+void record_axial(JointWork& work, double h_s) {
   work.plastic.state.axial = work.impulse[0] / (h_s * work.plastic.strength[0]);
 }
 
-void follow_flow(JointWork& work, const BodyRow* rows) {
+void absorb_flow(JointWork& work, const BodyRow* rows) {
   PlasticWork& plastic = work.plastic;
-  // Where it is now is what it has flowed; what that took, how it moved there: in a contact it is
-  // pushed out besides.
+  // The current error of a flowing row is its flow. The work is that of its speed, since a contact
+  // may push the bodies further.
   Vec6 flow = Vec6::Zero(), taken_J = Vec6::Zero();
   for (int i = 0; i < kMostJointRows; ++i) {
     if (!flows(work, i)) continue;
@@ -122,24 +122,24 @@ void follow_flow(JointWork& work, const BodyRow* rows) {
   if (flow.isZero(0)) return;
   plastic.work_J += std::max(0.0, taken_J.sum());
   for (int i = 0; i < kMostJointRows; ++i) work.row[static_cast<std::size_t>(i)].error -= flow[i];
-  const Vec3 drawn = flow.head<3>(), turn = flow.tail<3>();
-  plastic.drawn += drawn;
+  const Vec3 extension = flow.head<3>(), turn = flow.tail<3>();
+  plastic.extension += extension;
   plastic.turn = rotation_by(turn) * plastic.turn;
   work.twist = work.twist * rotation_by(-work.axes * turn);
-  const Vec3 drawn_W = rotation_of(work.root_a, rows[work.row_a]) * (work.axes * drawn);
-  const Vec3 shift = rotation_of(work.root_b, rows[work.row_b]).conjugate() * drawn_W;
+  const Vec3 extension_W = rotation_of(work.root_a, rows[work.row_a]) * (work.axes * extension);
+  const Vec3 shift = rotation_of(work.root_b, rows[work.row_b]).conjugate() * extension_W;
   work.arm_b -= shift, work.gap -= shift;
   plastic.shift_b += work.axes.transpose() * shift;
 }
 
-void hold(JointWork& work) {
+void fix_flow(JointWork& work) {
   const bool axial = flows(work, 0), across = flows(work, kAlong);
   work.bounds = {};
   for (int i = 0; i < kMostJointRows; ++i)
     if (i < kAlong ? axial : across) work.bounds[static_cast<std::size_t>(i)] = {0, 0, 0, 1};
 }
 
-void keep_flow(const JointWork& work, Joint& joint) {
+void store_flow(const JointWork& work, Joint& joint) {
   const PlasticWork& plastic = work.plastic;
   joint.plastic = plastic.state;
   if (!(plastic.work_J > 0)) return;
@@ -148,7 +148,7 @@ void keep_flow(const JointWork& work, Joint& joint) {
   Quat& rotation = joint.desc.rotation_RaRb;
   joint.desc.anchor_b_R -= rotation.conjugate() * (axes_R * plastic.shift_b);
   rotation = (rotation_by(turn_R) * rotation).normalized();
-  joint.flow = {{}, turn_R, axes_R * plastic.drawn, plastic.work_J};
+  joint.flow = {{}, turn_R, axes_R * plastic.extension, plastic.work_J};
 }
 
 }  // namespace sunder::solver

@@ -3,13 +3,13 @@
 #include <numbers>
 
 #include "solver/rigid/body/step_context.h"
-#include "solver/rigid/tolerances.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-/// A spring of (omega·h)² of the mass over h²; what it gives way under an impulse p a substep is
-/// p / (mass · h) / omega².
+/// Returns the softness of a spring of stiffness mass·omega². An impulse p per substep compresses
+/// it by p / (mass·h·omega²).
 Softness softness(double stiffness, double h) {
   const double omega_h = 2 * std::numbers::pi * stiffness;
   const double a1 = 2 * kDampingRatio + omega_h, a2 = omega_h * a1, a3 = 1 / (1 + a2);
@@ -21,10 +21,10 @@ Softness softness(double stiffness, double h) {
 
 SoftStep soft_step(const StepContext& step) {
   SoftStep soft;
-  soft.edge = {softness(kStiffness, step.h_s), softness(kStiffness, step.h_s)};
-  soft.face = {softness(kFaceStiffness, step.h_s), softness(0.5 * kStiffness, step.h_s)};
+  soft.edge = {softness(kPointStiffness, step.h_s), softness(kPointStiffness, step.h_s)};
+  soft.face = {softness(kFaceStiffness, step.h_s), softness(0.5 * kPointStiffness, step.h_s)};
   soft.inverse_h = step.inverse_h;
-  soft.push = static_cast<float>(kPush * step.froude.speed_m_s(1));
+  soft.push = static_cast<float>(kMaxPushSpeed * step.froude.speed_m_s(1));
   return soft;
 }
 

@@ -1,163 +1,175 @@
-// The kernels: one block of manifolds against its bodies, for 1, 4, 8 and 16 lanes (sweep_1.cpp and
-// so on, each compiled for the instruction set it needs). Read first: sweep() in sweep_kernels.h.
+// Kernels: operations on one block of manifolds and its bodies, for 1, 4, 8 and 16 lanes
+// (sweep_1.cpp and so on, each compiled for its instruction set). Read first: sweep() in
+// sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/contact/kernels/constraint_block.h"
 
 namespace sunder::solver {
 
-/// What the kernels work on. Rows are by body slot + 1; row 0 stays still.
+/// Rows that the kernels change, by body slot + 1; row 0 is immovable.
 struct SolverRows {
   BodyRow* rows = nullptr;
-  Wide* parts = nullptr;  ///< What split manifolds did to their bodies, to be summed.
-  Wide* spins = nullptr;  ///< Angular momentum (root space) that bodies get when the step ends.
+  Wide* parts = nullptr;  ///< Changes of bodies by split manifolds, to be summed.
+  Wide* spins = nullptr;  ///< Angular momentum (root space) to be added at the end of the step.
 };
 
-/// Of a substep, or of the size of a contact: as good as none.
-inline constexpr float kNow = 0.01f;
+/// Fraction of a substep, or of the size of a contact, that is negligible.
+inline constexpr float kNegligible = 0.01f;
 
-/// How the arms of a block's impulses follow its bodies within a step. An impulse and its
-/// counterpart act at one point, where the body whose corners touch the other's face has it; or the
-/// two would change the sum of angular momentum by what the bodies move past each other.
+/// Lever arms of a block's impulses, which follow the bodies within a step. An impulse and its
+/// counterpart act at one point, on the body whose corners touch the other's face; otherwise the
+/// pair would change the total angular momentum by the motion of the bodies past each other.
 template <std::uint32_t lanes>
 struct alignas(64) ArmLanes {
-  alignas(4 * lanes) Wide3Of<lanes> root_a[3] = {};  ///< Columns; zero where it takes no impulse.
+  /// Columns; zero for a side that takes no impulse.
+  alignas(4 * lanes) Wide3Of<lanes> root_a[3] = {};
   Wide3Of<lanes> root_b[3] = {};
-  WideOf<lanes> share_a = {};  ///< Of the gap that arms of a bridge; those of b bridge the rest.
-  WideOf<lanes> least = {};    ///< Square of a change of the gap too small to follow.
-  WideOf<lanes> wide = {};  ///< Square of a gap that no body spans; balls span none, or they spin.
-  WideOf<lanes> near = {};  ///< Square of a distance along the normal that is as good as none.
-  Wide3Of<lanes> gap = {};  ///< From a's point of friction to b's when the step began.
-  Wide3Of<lanes> bridged = {};
-  Wide3Of<lanes> moved_by = {};             ///< Impulse on b with which the bodies last moved.
-  Wide3Of<lanes> owed_a = {}, owed_b = {};  ///< What impulses would do with the new arms, besides.
-  bool owes = false;
+  /// Fraction of the gap that the arms of a close; those of b close the rest.
+  WideOf<lanes> share_a = {};
+  WideOf<lanes> least = {};  ///< Squared change of the gap below which arms are kept.
+  WideOf<lanes> wide = {};   ///< Squared gap that no body spans; 0 for balls, which would spin.
+  WideOf<lanes> near = {};   ///< Squared distance along the normal that is negligible.
+  Wide3Of<lanes> gap = {};   ///< From a's friction point to b's at the start of the step.
+  Wide3Of<lanes> closed_gap = {};
+  Wide3Of<lanes> moving_impulse = {};  ///< Impulse on b with which the bodies last moved.
+  /// Change of angular momentum by impulses with the new arms, to be applied.
+  Wide3Of<lanes> pending_a = {}, pending_b = {};
+  bool has_pending = false;
 };
 
-/// What a block is made of, besides what is stored in it.
+/// Input of a block, besides the block's own data.
 template <std::uint32_t lanes>
 struct alignas(64) GatheredBlock {
   Wide3Of<lanes> root_a[3] = {}, root_b[3] = {};  ///< Columns.
-  Wide3Of<lanes> drift = {}, slide_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
+  Wide3Of<lanes> drift = {}, friction_impulse = {}, friction_arm_a = {}, friction_arm_b = {};
   Wide3Of<lanes> roll_impulse = {};
   Wide3Of<lanes> arm_a[4] = {}, arm_b[4] = {};
-  Wide3Of<lanes> offset = {};  ///< Of b's centre from a's.
+  Wide3Of<lanes> offset = {};  ///< Centre of b minus centre of a.
   WideOf<lanes> share_a = {};  ///< As in ArmLanes.
-  Wide3Of<lanes> gap = {}, bridged = {};
-  WideOf<lanes> meets = {};       ///< 1: arms bridge the gap from the start.
-  Wide3Of<lanes> gravity = {};    ///< Acceleration of b from a.
-  WideOf<lanes> has[4] = {};      ///< 1: the manifold has such a point.
-  WideOf<lanes> press_mass = {};  ///< Scales of the spring that presses.
-  WideOf<lanes> press_give = {};
-  WideOf<lanes> compliance_scale = {};       ///< Of the springs that press.
-  WideOf<lanes> awake_a = {}, awake_b = {};  ///< Kinematic bodies count.
-  WideOf<lanes> parts_a = {}, parts_b = {};  ///< Into which a split block cuts its bodies.
+  Wide3Of<lanes> gap = {}, closed_gap = {};
+  WideOf<lanes> closes_gap = {};         ///< 1: the arms close the gap from the start.
+  Wide3Of<lanes> gravity = {};           ///< Acceleration of b minus that of a.
+  WideOf<lanes> has[4] = {};             ///< 1: the manifold has the point.
+  WideOf<lanes> normal_mass_scale = {};  ///< Scales of the normal spring.
+  WideOf<lanes> normal_impulse_scale = {};
+  /// Compliance of the normal springs over that without load.
+  WideOf<lanes> compliance_scale = {};
+  WideOf<lanes> awake_a = {}, awake_b = {};  ///< 1: awake or kinematic.
+  WideOf<lanes> parts_a = {}, parts_b = {};  ///< Number of parts of the body in a split block.
   bool sleepers = false;
 };
 
-/// Works out Jacobians and masses.
+/// Computes Jacobians and effective masses.
 template <std::uint32_t lanes>
 void derive(GatheredBlock<lanes>& gathered, ConstraintBlock<lanes>& block);
-/// After the bodies moved: Jacobians and masses with arms that followed them, or, where they are
-/// still far from each other, aim at where they meet within a substep of `h_s`. What impulses of
-/// this substep did with the old arms stands; what they would do besides is owed to the next.
+/// Updates Jacobians and effective masses after the bodies moved. The arms follow the bodies or,
+/// where these are far from each other, point to where they will touch within a substep of `h_s`.
+/// Impulses of this substep keep the effect that they had with the old arms; the difference is
+/// applied in the next substep.
 template <std::uint32_t lanes>
-void follow(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
-            float h_s);
-/// Once a substep has begun with the impulses of the one before: what follow() left owed.
+void update_arms(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
+                 float h_s);
+/// Applies the difference that update_arms() left, after a substep began with the impulses of the
+/// last one.
 template <std::uint32_t lanes>
-void settle(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies);
-/// Applies last step's impulses.
+void apply_arm_change(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms,
+                      const SolverRows& bodies);
+/// Applies the impulses of the last step.
 template <std::uint32_t lanes>
 void warm_start(ConstraintBlock<lanes>& block, const SolverRows& bodies);
-/// One Gauss-Seidel pass with the soft bias: pushes overlaps apart.
+/// One Gauss-Seidel pass with soft bias, which corrects overlaps.
 template <std::uint32_t lanes>
 void sweep_biased(ConstraintBlock<lanes>& block, const SolverRows& bodies, const SoftStep& soft);
-/// One pass without it: takes out the velocity the push left behind.
+/// One pass without bias, which removes the velocity added by the correction.
 template <std::uint32_t lanes>
 void sweep_relaxed(ConstraintBlock<lanes>& block, const SolverRows& bodies, const SoftStep& soft);
 /// Adds the impulses of a substep to those of the step.
 template <std::uint32_t lanes>
 void sum_impulses(ConstraintBlock<lanes>& block);
-/// Takes impulses of the substep back but for the shares of their bodies, by row. To be called
-/// after their sum.
+/// Scales the impulses of the substep by the scale of their bodies, by row. Must be called after
+/// sum_impulses().
 template <std::uint32_t lanes>
 void scale_impulses(ConstraintBlock<lanes>& block, ArmLanes<lanes>* arms,
-                    const float* share_of_row);
-/// Bodies moved with impulses of which they keep a share: notes what that changed of the sum of
-/// angular momentum. Before scale_impulses(); not of split blocks.
+                    const float* scale_of_row);
+/// Records the change of the total angular momentum when impulses are scaled with which bodies have
+/// moved. Must be called before scale_impulses(); has no effect on split blocks.
 template <std::uint32_t lanes>
-void note_spin(const ConstraintBlock<lanes>& block, const ArmLanes<lanes>& arms,
-               const SolverRows& bodies, const float* share_of_row, float h_s);
-/// What conjugate gradients remember of a block, by impulse: those of its points, of sliding, of
-/// twist.
+void record_spin_change(const ConstraintBlock<lanes>& block, const ArmLanes<lanes>& arms,
+                        const SolverRows& bodies, const float* scale_of_row, float h_s);
+/// State of conjugate gradients by impulse: points, friction, twist.
 template <std::uint32_t lanes>
 struct alignas(64) SearchLanes {
-  alignas(4 * lanes) WideOf<lanes> start[7] = {};  ///< Before the sweep.
-  WideOf<lanes> direction[7] = {};                 ///< Where they went before that.
+  alignas(4 * lanes) WideOf<lanes> start[7] = {};  ///< Impulses before the sweep.
+  WideOf<lanes> direction[7] = {};                 ///< Direction of the last step.
 };
-/// Notes the impulses before a sweep.
+/// Stores the impulses before a sweep.
 template <std::uint32_t lanes>
-void mark(const ConstraintBlock<lanes>& block, SearchLanes<lanes>& search);
-/// Writes the energy of what a sweep changed, by lane.
+void save_impulses(const ConstraintBlock<lanes>& block, SearchLanes<lanes>& search);
+/// Writes the energy of a sweep's changes, by lane.
 template <std::uint32_t lanes>
-void measure(const ConstraintBlock<lanes>& block, const SearchLanes<lanes>& search, float* energy);
-/// After a sweep: goes on along the way so far, `beta` times as far; 0: the way begins anew.
+void find_change_energy(const ConstraintBlock<lanes>& block, const SearchLanes<lanes>& search,
+                        float* energy);
+/// Steps along the search direction after a sweep: `beta` times the last step; 0 restarts the
+/// search.
 template <std::uint32_t lanes>
-void go_on(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search, const SolverRows& bodies,
-           float beta);
-/// Strikes the contacts that close within a substep of `h_s` and rebound: all points of one at
-/// once, one contact after the other (Newton's law of impact, with friction). What a strike does is
-/// no part of the impulses that are kept. False if none closes; those of split blocks do not
-/// rebound.
+void step_along_direction(ConstraintBlock<lanes>& block, SearchLanes<lanes>& search,
+                          const SolverRows& bodies, float beta);
+/// Applies restitution to contacts that touch within a substep of `h_s` and rebound: all points of
+/// a contact at once, one contact after another (Newton's law of impact, with friction). Its
+/// impulses do not warm start later substeps. Returns false if no contact rebounds; split blocks
+/// have no restitution.
 template <std::uint32_t lanes>
-bool strike(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms, const SolverRows& bodies,
-            float h_s);
-/// What impacts need of a block.
+bool apply_restitution(ConstraintBlock<lanes>& block, ArmLanes<lanes>& arms,
+                       const SolverRows& bodies, float h_s);
+/// State of a block near an impact.
 template <std::uint32_t lanes>
 struct alignas(64) ImpactLanes {
-  alignas(4 * lanes) WideOf<lanes> least_m_s = {};  ///< What closes no faster is none.
-  WideOf<lanes> gap_m_s[4] = {};  ///< With which a point may close within the substep, by its gap.
-  WideOf<lanes> aside[9] = {};    ///< Impulses it has nothing to do with, rolling last.
+  alignas(4 * lanes) WideOf<lanes> least_m_s = {};  ///< Minimum closing speed of an impact.
+  /// Closing speed at which a point's gap closes within the substep.
+  WideOf<lanes> gap_m_s[4] = {};
+  WideOf<lanes> saved[9] = {};  ///< Impulses stored during the propagation, rolling last.
 };
-/// A contact as a sweep of an impact wants it, which takes it from its block: rows of eight floats.
+/// Data of a contact in a sweep of an impact, extracted from its block: rows of eight floats.
 struct alignas(64) ImpactContact {
   float row[13][8] = {};
   std::uint32_t points = 0;
   bool rolls = false;
 };
-/// The rows of its bodies.
+/// Rows of the contact's bodies.
 struct ImpactPair {
   std::int32_t row_a = 0, row_b = 0;
 };
-/// A sweep of what is near an impact.
+/// State of the sweeps near an impact.
 struct ImpactSweep {
   std::uint8_t* moved = nullptr;  ///< By row: the last sweep that changed it; 0: none.
   std::uint8_t now = 0;
-  std::uint8_t since = 0;  ///< Contacts are swept that have a body that moved since then.
+  std::uint8_t since = 0;  ///< Contacts are swept with a body that moved in this sweep or later.
 };
-/// Finds the gaps. Whether some point of a block, that is not split, closes as fast as impacts do.
+/// Finds the gaps of a block that is not split; returns true if a point closes as fast as an
+/// impact.
 template <std::uint32_t lanes>
-bool meet(const ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, const SolverRows& bodies,
-          float inverse_h);
-/// Sets impulses aside, and takes the contacts out.
+bool find_gaps(const ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact,
+               const SolverRows& bodies, float inverse_h);
+/// Stores the impulses and extracts the contacts.
 template <std::uint32_t lanes>
-void begin_impact(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, ImpactPair* pairs,
-                  ImpactContact* contacts);
-/// One pass as sweep_relaxed(), over those of so many contacts of one colour whose bodies moved.
-/// Whether some point closed as fast as impacts do when its turn came.
+void extract_contacts(ConstraintBlock<lanes>& block, ImpactLanes<lanes>& impact, ImpactPair* pairs,
+                      ImpactContact* contacts);
+/// One pass like sweep_relaxed() over those of `count` contacts of one colour whose bodies moved.
+/// Returns true if a point closed as fast as an impact when its turn came.
 template <std::uint32_t lanes>
-bool pass_on(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t count,
-             const SolverRows& bodies, const SoftStep& soft, const ImpactSweep& sweep);
-/// Applies what the impact did, adds it to the sum of the step, and puts impulses back.
+bool propagate(const ImpactPair* pairs, ImpactContact* contacts, std::uint32_t count,
+               const SolverRows& bodies, const SoftStep& soft, const ImpactSweep& sweep);
+/// Applies the impulses of the propagation, adds them to the sum of the step, and restores the
+/// stored ones.
 template <std::uint32_t lanes>
-void end_impact(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
-                ImpactContact* contacts, const SolverRows& bodies);
-/// Finds the impulse on b of the step, and the work of its impulses: each times the mean of the
-/// relative velocities, along its direction, at the start and at the end of the step.
+void apply_propagation(ConstraintBlock<lanes>& block, const ImpactLanes<lanes>& impact,
+                       ImpactContact* contacts, const SolverRows& bodies);
+/// Finds the impulse on b over the step, and the work of each impulse: the impulse times the mean
+/// of the relative velocities, along its direction, at the start and at the end of the step.
 template <std::uint32_t lanes>
 void find_work(ConstraintBlock<lanes>& block, const SolverRows& bodies);
-/// Writes the separation of every point now, by point and lane.
+/// Writes the current separation of each point, by point and lane.
 template <std::uint32_t lanes>
 void separations_now(const ConstraintBlock<lanes>& block, const SolverRows& bodies,
                      float (*separation)[lanes]);

@@ -1,4 +1,4 @@
-// The kernels for one lane: the reference that the others must equal, and what debuggers like.
+// The kernels for one lane: the reference for the others, and for debugging.
 #include "solver/rigid/contact/kernels/impact_kernels.h"
 
 namespace sunder::solver {

@@ -1,6 +1,7 @@
-// Projected Gauss-Seidel on soft contacts, central friction and twist, a manifold a lane. Read
-// first: sweep(). Included by sweep_1.cpp and so on alone: all here is a template of the lanes or
-// inlined by force, or code for one instruction set would stand in for that of another.
+// Projected Gauss-Seidel on soft contacts, with friction and twist at the mean of the points, a
+// manifold per lane. Read first: sweep(). Included only by sweep_1.cpp and so on: everything here
+// is a template of the number of lanes or inlined by force, or code for one instruction set would
+// replace that of another.
 #pragma once
 
 #include "solver/rigid/contact/kernels/sweep.h"
@@ -12,7 +13,7 @@ SUNDER_INLINE Triple<V> to_root(const Triple<V> (&column)[3], const Triple<V>& a
   return {dot(column[0], angular), dot(column[1], angular), dot(column[2], angular)};
 }
 
-/// Both bodies of every lane; of a split block, the parts of them that are the lane's own.
+/// Velocities of both bodies in each lane; of a split block, of the lane's own parts.
 template <std::uint32_t lanes, bool kSplit>
 struct Pairs {
   using V = WideOf<lanes>;
@@ -38,21 +39,21 @@ struct Pairs {
     return dot(direction, b.linear - a.linear) + dot(angular_b, b.angular) -
            dot(angular_a, a.angular);
   }
-  SUNDER_INLINE void push(const ConstraintBlock<lanes>& c, const V3& direction, const V3& angular_a,
-                          const V3& angular_b, V impulse) {
+  SUNDER_INLINE void apply_impulse(const ConstraintBlock<lanes>& c, const V3& direction,
+                                   const V3& angular_a, const V3& angular_b, V impulse) {
     a.linear = a.linear - direction * (impulse * c.inverse_mass_a);
     b.linear = b.linear + direction * (impulse * c.inverse_mass_b);
     a.angular = a.angular - angular_a * impulse;
     b.angular = b.angular + angular_b * impulse;
   }
-  SUNDER_INLINE void twist(const ConstraintBlock<lanes>& c, V impulse) {
+  SUNDER_INLINE void apply_twist(const ConstraintBlock<lanes>& c, V impulse) {
     a.angular = a.angular - c.twist_a * impulse;
     b.angular = b.angular + c.twist_b * impulse;
   }
 };
 
-/// A row's room, for lanes that have nothing to store: a branch for each would be a guess.
-struct alignas(32) NoRow {
+/// Memory for lanes that store nothing, which avoids a branch per lane.
+struct alignas(32) UnusedRow {
   float lane[8];
 };
 
@@ -60,13 +61,13 @@ template <std::uint32_t lanes>
 SUNDER_INLINE void store_side(const Motion6<WideOf<lanes>>& v, const std::int32_t* index,
                               BodyRow* rows, Wide BodyRow::*member = &BodyRow::velocity) {
   float* row[lanes];
-  NoRow none;
+  UnusedRow none;
   for (std::uint32_t i = 0; i < lanes; ++i)
     row[i] = index[i] > 0 ? reinterpret_cast<float*>(&(rows[index[i]].*member)) : none.lane;
   store_rows(v, row);
 }
 
-/// What the parts of a body did, less what the body was, is their average's change.
+/// Stores the change of a part as its contribution to the average over the body's parts.
 template <std::uint32_t lanes>
 SUNDER_INLINE void store_part(const Motion6<WideOf<lanes>>& v, const Motion6<WideOf<lanes>>& was,
                               WideOf<lanes> share, WideOf<lanes> root, const std::int32_t* index,
@@ -74,13 +75,13 @@ SUNDER_INLINE void store_part(const Motion6<WideOf<lanes>>& v, const Motion6<Wid
   const Motion6<WideOf<lanes>> change = {(v.linear - was.linear) * share,
                                          (v.angular - was.angular) * root};
   float* row[lanes];
-  NoRow none;
+  UnusedRow none;
   for (std::uint32_t i = 0; i < lanes; ++i)
     row[i] = index[i] > 0 ? reinterpret_cast<float*>(&parts[part[i]]) : none.lane;
   store_rows(change, row);
 }
 
-/// Hands new velocities back: to the bodies, or as changes to what will be summed.
+/// Stores new velocities in the bodies, or their changes in the parts to be summed.
 template <std::uint32_t lanes, bool kSplit>
 SUNDER_INLINE void store(const ConstraintBlock<lanes>& c, const Pairs<lanes, kSplit>& v,
                          const SolverRows& bodies) {
@@ -102,9 +103,8 @@ SUNDER_INLINE WideOf<lanes> total_impulse(const ConstraintBlock<lanes>& c) {
   return sum;
 }
 
-/// Mass and impulse scale of a spring. Parts of bodies are softer than bodies: `split_scale` keeps
-/// the spring between them what it was, so that splitting changes the way to the solution and not
-/// the solution.
+/// Mass and impulse scales of a spring. Parts are more compliant than bodies: `split_scale` keeps
+/// the spring between them, so that splitting changes the convergence and not the solution.
 template <class V>
 struct Spring {
   V mass_scale, impulse_scale;
@@ -115,7 +115,7 @@ struct Spring {
   }
 };
 
-/// A softness a lane, where each is one of two.
+/// The softness of each lane, that of an edge or of a face.
 template <class V>
 struct SoftLanes {
   V rate;
@@ -132,62 +132,65 @@ struct SoftLanes {
   }
 };
 
-/// Coulomb friction at the middle of the patch, both directions at once, limited to a circle.
+/// Solves Coulomb friction at the mean of the points, in both directions at once, limited to a
+/// circle.
 template <bool kBiased, std::uint32_t lanes, bool kSplit>
-SUNDER_INLINE void slide(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
-                         const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
+SUNDER_INLINE void solve_friction(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                                  const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
   using V = WideOf<lanes>;
   const V limit = c.friction * total_impulse(c);
-  V u1 = v.along(c.tangent_1, c.slide_1_a, c.slide_1_b);
-  V u2 = v.along(c.tangent_2, c.slide_2_a, c.slide_2_b);
-  const SoftLanes<V> stick(c.face, soft.edge.slide, soft.face.slide);
+  V u1 = v.along(c.tangent_1, c.friction_1_a, c.friction_1_b);
+  V u2 = v.along(c.tangent_2, c.friction_2_a, c.friction_2_b);
+  const SoftLanes<V> stick(c.face, soft.edge.friction, soft.face.friction);
   if constexpr (kBiased) {
-    u1 += stick.rate * (c.drift_1 + x.along(c.tangent_1, c.slide_1_a, c.slide_1_b));
-    u2 += stick.rate * (c.drift_2 + x.along(c.tangent_2, c.slide_2_a, c.slide_2_b));
+    u1 += stick.rate * (c.drift_1 + x.along(c.tangent_1, c.friction_1_a, c.friction_1_b));
+    u2 += stick.rate * (c.drift_2 + x.along(c.tangent_2, c.friction_2_a, c.friction_2_b));
   }
-  V d1 = -(c.slide_11 * u1 + c.slide_12 * u2), d2 = -(c.slide_12 * u1 + c.slide_22 * u2);
+  V d1 = -(c.friction_mass_11 * u1 + c.friction_mass_12 * u2),
+    d2 = -(c.friction_mass_12 * u1 + c.friction_mass_22 * u2);
   if constexpr (kBiased) {
     Spring<V> spring = stick.spring;
-    if constexpr (kSplit) spring = spring.split(c.parts.slide_split_scale);
-    d1 = d1 * spring.mass_scale - c.slide_impulse_1 * spring.impulse_scale;
-    d2 = d2 * spring.mass_scale - c.slide_impulse_2 * spring.impulse_scale;
+    if constexpr (kSplit) spring = spring.split(c.parts.friction_split_scale);
+    d1 = d1 * spring.mass_scale - c.friction_impulse_1 * spring.impulse_scale;
+    d2 = d2 * spring.mass_scale - c.friction_impulse_2 * spring.impulse_scale;
   }
-  V new_1 = c.slide_impulse_1 + soft.omega * d1, new_2 = c.slide_impulse_2 + soft.omega * d2;
+  V new_1 = c.friction_impulse_1 + soft.omega * d1, new_2 = c.friction_impulse_2 + soft.omega * d2;
   const V square = new_1 * new_1 + new_2 * new_2;
   const auto sliding = square > limit * limit;
   const V scale = sliding ? limit / sqrt(sliding ? square : splat<V>(1)) : splat<V>(1);
   new_1 *= scale, new_2 *= scale;
-  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, new_1 - c.slide_impulse_1);
-  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, new_2 - c.slide_impulse_2);
-  c.slide_impulse_1 = new_1, c.slide_impulse_2 = new_2;
+  v.apply_impulse(c, c.tangent_1, c.friction_1_a, c.friction_1_b, new_1 - c.friction_impulse_1);
+  v.apply_impulse(c, c.tangent_2, c.friction_2_a, c.friction_2_b, new_2 - c.friction_impulse_2);
+  c.friction_impulse_1 = new_1, c.friction_impulse_2 = new_2;
 }
 
-/// Friction against turning about the normal; its limit is that of the loaded points about their
-/// middle.
+/// Solves friction against rotation about the normal; the limit is the moment of the loaded points
+/// about their mean.
 template <std::uint32_t lanes, bool kSplit>
-SUNDER_INLINE void twist(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
+SUNDER_INLINE void solve_twist(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
   V moment = c.point[0].impulse * c.point[0].arm;
   for (std::uint32_t i = 1; i < c.points; ++i) moment += c.point[i].impulse * c.point[i].arm;
   const V limit = c.friction * moment;
   const V u = dot(c.twist_b, v.b.angular) - dot(c.twist_a, v.a.angular);
   const V next = max(-limit, min(limit, c.twist_impulse - c.twist_mass * u));
-  v.twist(c, next - c.twist_impulse);
+  v.apply_twist(c, next - c.twist_impulse);
   c.twist_impulse = next;
 }
 
-/// Turns both about the two tangents.
+/// Applies angular impulses about the two tangents.
 template <std::uint32_t lanes, bool kSplit>
-SUNDER_INLINE void roll_by(const ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
-                           WideOf<lanes> impulse_1, WideOf<lanes> impulse_2) {
+SUNDER_INLINE void apply_rolling(const ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                                 WideOf<lanes> impulse_1, WideOf<lanes> impulse_2) {
   const RollLanes<lanes>& r = c.roll;
   v.a.angular = v.a.angular - r.angular_1_a * impulse_1 - r.angular_2_a * impulse_2;
   v.b.angular = v.b.angular + r.angular_1_b * impulse_1 + r.angular_2_b * impulse_2;
 }
 
-/// Resistance to rolling: a torque about the tangents of at most its arm times the load.
+/// Solves rolling resistance: a torque about the tangents of at most its lever arm times the normal
+/// impulse.
 template <std::uint32_t lanes, bool kSplit>
-SUNDER_INLINE void roll(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
+SUNDER_INLINE void solve_rolling(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
   RollLanes<lanes>& r = c.roll;
   const V limit = r.arm * total_impulse(c);
@@ -199,16 +202,16 @@ SUNDER_INLINE void roll(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   const auto rolling = square > limit * limit;
   const V scale = rolling ? limit / sqrt(rolling ? square : splat<V>(1)) : splat<V>(1);
   new_1 *= scale, new_2 *= scale;
-  roll_by(c, v, new_1 - r.impulse_1, new_2 - r.impulse_2);
+  apply_rolling(c, v, new_1 - r.impulse_1, new_2 - r.impulse_2);
   r.impulse_1 = new_1, r.impulse_2 = new_2;
 }
 
 template <bool kBiased, std::uint32_t lanes, bool kSplit>
-SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
-                         const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
+SUNDER_INLINE void solve_normal(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                                const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
   using V = WideOf<lanes>;
   const V zero = {}, one = splat<V>(1);
-  const SoftLanes<V> press(c.face, soft.edge.press, soft.face.press);
+  const SoftLanes<V> springs(c.face, soft.edge.normal, soft.face.normal);
   for (std::uint32_t i = 0; i < c.points; ++i) {
     PointLanes<lanes>& p = c.point[i];
     const V s = p.separation + x.along(c.normal, p.angular_a, p.angular_b);
@@ -217,45 +220,48 @@ SUNDER_INLINE void press(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
     V change;
     if constexpr (kBiased) {
       const V free = u;
-      u += s * (apart ? splat<V>(soft.inverse_h) : press.rate);
-      Spring<V> spring{c.press_mass, c.press_give};
-      if constexpr (kSplit) spring = press.spring.split(c.parts.press_split_scale[i]);
+      u += s * (apart ? splat<V>(soft.inverse_h) : springs.rate);
+      Spring<V> spring{c.normal_mass_scale, c.normal_impulse_scale};
+      if constexpr (kSplit) spring = springs.spring.split(c.parts.normal_split_scale[i]);
       const V mass_scale = apart ? one : spring.mass_scale;
       const V impulse_scale = apart ? zero : spring.impulse_scale;
       change = -p.mass * mass_scale * u - impulse_scale * p.impulse;
-      // What bears a load is a spring; what overlaps without one parts no faster than this.
+      // A loaded point is a spring; an overlap without load is corrected at most at this speed.
       const V push = p.mass * mass_scale * (c.push_m_s - free);
       change = apart ? change : min(change, push);
     } else {
       u += apart ? s * soft.inverse_h : zero;
       change = -p.mass * u;
-      // What is yet to rebound is left to the strike of the next substep.
+      // A point that is yet to rebound is left to the restitution of the next substep.
       if (c.bouncy) {
         const auto rebounds = apart & (c.rebound.restitution > zero);
         change = rebounds ? (p.impulse > zero ? change : zero) : change;
       }
     }
     const V next = max(zero, p.impulse + soft.omega * change);
-    v.push(c, c.normal, p.angular_a, p.angular_b, next - p.impulse);
+    v.apply_impulse(c, c.normal, p.angular_a, p.angular_b, next - p.impulse);
     p.impulse = next;
   }
 }
 
-/// Of the limit of friction, where it would come and go by rounding.
-constexpr float kLetsGo = 0.01f;
+/// Excess over the limit of friction that is kept, since rounding would make it come and go.
+constexpr float kFrictionSlack = 0.01f;
 
-/// Takes back what friction has beyond the limit that normal impulses leave it with.
+/// Removes friction beyond the limit by the final normal impulses.
 template <std::uint32_t lanes, bool kSplit>
-SUNDER_INLINE void let_go(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
+SUNDER_INLINE void clamp_friction(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v) {
   using V = WideOf<lanes>;
   const V one = splat<V>(1), limit = c.friction * total_impulse(c);
-  const V square = c.slide_impulse_1 * c.slide_impulse_1 + c.slide_impulse_2 * c.slide_impulse_2;
-  const auto beyond = square > splat<V>(1 + 2 * kLetsGo) * limit * limit;
+  const V square =
+      c.friction_impulse_1 * c.friction_impulse_1 + c.friction_impulse_2 * c.friction_impulse_2;
+  const auto beyond = square > splat<V>(1 + 2 * kFrictionSlack) * limit * limit;
   if (!any(beyond)) return;
   const V scale = beyond ? limit / sqrt(beyond ? square : one) : one;
-  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, c.slide_impulse_1 * (scale - one));
-  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, c.slide_impulse_2 * (scale - one));
-  c.slide_impulse_1 *= scale, c.slide_impulse_2 *= scale;
+  v.apply_impulse(c, c.tangent_1, c.friction_1_a, c.friction_1_b,
+                  c.friction_impulse_1 * (scale - one));
+  v.apply_impulse(c, c.tangent_2, c.friction_2_a, c.friction_2_b,
+                  c.friction_impulse_2 * (scale - one));
+  c.friction_impulse_1 *= scale, c.friction_impulse_2 *= scale;
 }
 
 template <bool kBiased, bool kSplit, std::uint32_t lanes>
@@ -263,11 +269,11 @@ SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
                          const SoftStep& soft) {
   Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
   const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
-  slide<kBiased>(c, v, x, soft);
-  if (c.points > 1) twist(c, v);
-  if (c.rolls) roll(c, v);
-  press<kBiased>(c, v, x, soft);
-  if constexpr (!kBiased) let_go(c, v);
+  solve_friction<kBiased>(c, v, x, soft);
+  if (c.points > 1) solve_twist(c, v);
+  if (c.rolls) solve_rolling(c, v);
+  solve_normal<kBiased>(c, v, x, soft);
+  if constexpr (!kBiased) clamp_friction(c, v);
   store(c, v, bodies);
 }
 
@@ -281,37 +287,37 @@ void sweep_relaxed(ConstraintBlock<lanes>& c, const SolverRows& bodies, const So
   c.split ? sweep<false, true>(c, bodies, soft) : sweep<false, false>(c, bodies, soft);
 }
 
-/// Calls visit(slot, impulse) for every impulse of a block, those of rolling last.
+/// Calls visit(slot, impulse) for each impulse of a block, those of rolling last.
 template <std::uint32_t lanes, class Visit>
 SUNDER_INLINE void for_all_impulses(ConstraintBlock<lanes>& c, const Visit& visit) {
   for (std::uint32_t i = 0; i < c.points; ++i) visit(i, c.point[i].impulse);
-  visit(4, c.slide_impulse_1);
-  visit(5, c.slide_impulse_2);
+  visit(4, c.friction_impulse_1);
+  visit(5, c.friction_impulse_2);
   visit(6, c.twist_impulse);
   visit(7, c.roll.impulse_1);
   visit(8, c.roll.impulse_2);
 }
 
-/// Of the impulses that the bodies of a lane keep.
+/// Returns the scale of the impulses on a lane's bodies.
 template <std::uint32_t lanes>
-SUNDER_INLINE WideOf<lanes> share_of(const ConstraintBlock<lanes>& c, const float* share_of_row) {
+SUNDER_INLINE WideOf<lanes> scale_of(const ConstraintBlock<lanes>& c, const float* scale_of_row) {
   WideOf<lanes> share = {};
   for (std::uint32_t lane = 0; lane < lanes; ++lane)
-    share[lane] = share_of_row[c.row_a[lane] > 0 ? c.row_a[lane] : c.row_b[lane]];
+    share[lane] = scale_of_row[c.row_a[lane] > 0 ? c.row_a[lane] : c.row_b[lane]];
   return share;
 }
 
 template <std::uint32_t lanes>
-void note_spin(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
-               const SolverRows& bodies, const float* share_of_row, float h_s) {
+void record_spin_change(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
+                        const SolverRows& bodies, const float* scale_of_row, float h_s) {
   using V = WideOf<lanes>;
   if (c.split) return;
-  const V given_back = splat<V>(h_s) * (splat<V>(1) - share_of<lanes>(c, share_of_row));
-  if (!any(given_back > V{})) return;
+  const V removed = splat<V>(h_s) * (splat<V>(1) - scale_of<lanes>(c, scale_of_row));
+  if (!any(removed > V{})) return;
   const Pairs<lanes, false> base(c, bodies, &BodyRow::base);
-  const Wide3Of<lanes> spin = cross(base.b.linear - base.a.linear, arms.moved_by) * given_back;
+  const Wide3Of<lanes> spin = cross(base.b.linear - base.a.linear, arms.moving_impulse) * removed;
   const Wide3Of<lanes> by_a = to_root(arms.root_a, spin), by_b = to_root(arms.root_b, spin);
-  // Shared so that it takes the least energy.
+  // The split between the bodies needs the least energy.
   const V of_a = dot(by_a, by_a), of_b = dot(by_b, by_b), both = of_a + of_b;
   const V all = both > V{} ? both : splat<V>(1);
   const auto add = [&](const std::int32_t* row, const Wide3Of<lanes>& by, const V& share) {
@@ -329,12 +335,12 @@ void note_spin(const ConstraintBlock<lanes>& c, const ArmLanes<lanes>& arms,
 template <bool kSplit, std::uint32_t lanes>
 SUNDER_INLINE void warm_start_as(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
   Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
-  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, c.slide_impulse_1);
-  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, c.slide_impulse_2);
-  v.twist(c, c.twist_impulse);
-  if (c.rolls) roll_by(c, v, c.roll.impulse_1, c.roll.impulse_2);
+  v.apply_impulse(c, c.tangent_1, c.friction_1_a, c.friction_1_b, c.friction_impulse_1);
+  v.apply_impulse(c, c.tangent_2, c.friction_2_a, c.friction_2_b, c.friction_impulse_2);
+  v.apply_twist(c, c.twist_impulse);
+  if (c.rolls) apply_rolling(c, v, c.roll.impulse_1, c.roll.impulse_2);
   for (std::uint32_t i = 0; i < c.points; ++i)
-    v.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, c.point[i].impulse);
+    v.apply_impulse(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, c.point[i].impulse);
   store(c, v, bodies);
 }
 
@@ -343,24 +349,25 @@ void warm_start(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
   c.split ? warm_start_as<true>(c, bodies) : warm_start_as<false>(c, bodies);
 }
 
-/// Calls visit(slot, impulse, mass) for every impulse of a block.
+/// Calls visit(slot, impulse, mass) for each impulse of a block but those of rolling.
 template <class Block, class Visit>
 SUNDER_INLINE void for_impulses(Block& c, const Visit& visit) {
   for (std::uint32_t i = 0; i < c.points; ++i) visit(i, c.point[i].impulse, c.point[i].mass);
-  visit(4, c.slide_impulse_1, c.slide_11);
-  visit(5, c.slide_impulse_2, c.slide_22);
+  visit(4, c.friction_impulse_1, c.friction_mass_11);
+  visit(5, c.friction_impulse_2, c.friction_mass_22);
   visit(6, c.twist_impulse, c.twist_mass);
 }
 
 template <std::uint32_t lanes>
-void mark(const ConstraintBlock<lanes>& c, SearchLanes<lanes>& search) {
+void save_impulses(const ConstraintBlock<lanes>& c, SearchLanes<lanes>& search) {
   for_impulses(c, [&](std::uint32_t slot, const WideOf<lanes>& impulse, const WideOf<lanes>&) {
     search.start[slot] = impulse;
   });
 }
 
 template <std::uint32_t lanes>
-void measure(const ConstraintBlock<lanes>& c, const SearchLanes<lanes>& search, float* energy) {
+void find_change_energy(const ConstraintBlock<lanes>& c, const SearchLanes<lanes>& search,
+                        float* energy) {
   using V = WideOf<lanes>;
   const V zero = {}, one = splat<V>(1);
   V sum = zero;
@@ -373,8 +380,8 @@ void measure(const ConstraintBlock<lanes>& c, const SearchLanes<lanes>& search, 
 }
 
 template <std::uint32_t lanes>
-void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRows& bodies,
-           float beta) {
+void step_along_direction(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search,
+                          const SolverRows& bodies, float beta) {
   using V = WideOf<lanes>;
   V step[7] = {};
   for_impulses(c, [&](std::uint32_t slot, V& impulse, const V&) {
@@ -383,11 +390,11 @@ void go_on(ConstraintBlock<lanes>& c, SearchLanes<lanes>& search, const SolverRo
     impulse += step[slot];
   });
   Pairs<lanes, false> v(c, bodies, &BodyRow::velocity);
-  v.push(c, c.tangent_1, c.slide_1_a, c.slide_1_b, step[4]);
-  v.push(c, c.tangent_2, c.slide_2_a, c.slide_2_b, step[5]);
-  v.twist(c, step[6]);
+  v.apply_impulse(c, c.tangent_1, c.friction_1_a, c.friction_1_b, step[4]);
+  v.apply_impulse(c, c.tangent_2, c.friction_2_a, c.friction_2_b, step[5]);
+  v.apply_twist(c, step[6]);
   for (std::uint32_t i = 0; i < c.points; ++i)
-    v.push(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, step[i]);
+    v.apply_impulse(c, c.normal, c.point[i].angular_a, c.point[i].angular_b, step[i]);
   store(c, v, bodies);
 }
 

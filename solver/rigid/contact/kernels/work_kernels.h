@@ -1,5 +1,5 @@
-// What the impulses of a step come to, and their work. Read first: find_work(). Included by
-// sweep_1.cpp and so on alone, under the same rule as sweep_kernels.h.
+// Sums and work of the impulses of a step. Read first: find_work(). Included only by sweep_1.cpp
+// and so on, under the rule of sweep_kernels.h.
 #pragma once
 
 #include "solver/rigid/contact/kernels/sweep_kernels.h"
@@ -13,15 +13,15 @@ void sum_impulses(ConstraintBlock<lanes>& c) {
   });
 }
 
-/// Calls visit(slot, direction, Jacobian on a, Jacobian on b) for every impulse of a block, with a
-/// direction of zero for those that only turn.
+/// Calls visit(slot, direction, Jacobian on a, Jacobian on b) for each impulse of a block; the
+/// direction is zero for angular ones.
 template <std::uint32_t lanes, class Visit>
 SUNDER_INLINE void for_all_jacobians(const ConstraintBlock<lanes>& c, const Visit& visit) {
   const Wide3Of<lanes> none = {};
   for (std::uint32_t i = 0; i < c.points; ++i)
     visit(i, c.normal, c.point[i].angular_a, c.point[i].angular_b);
-  visit(4, c.tangent_1, c.slide_1_a, c.slide_1_b);
-  visit(5, c.tangent_2, c.slide_2_a, c.slide_2_b);
+  visit(4, c.tangent_1, c.friction_1_a, c.friction_1_b);
+  visit(5, c.tangent_2, c.friction_2_a, c.friction_2_b);
   if (c.points > 1) visit(6, none, c.twist_a, c.twist_b);
   if (!c.rolls) return;
   visit(7, none, c.roll.angular_1_a, c.roll.angular_1_b);
@@ -33,9 +33,9 @@ SUNDER_INLINE void find_work_as(ConstraintBlock<lanes>& c, const SolverRows& bod
   using V = WideOf<lanes>;
   const V half = splat<V>(0.5f), zero = {};
   const auto& p = c.step_impulse;
-  const V pressed = p[0] + p[1] + p[2] + p[3];
-  c.total = c.normal * pressed + c.tangent_1 * p[4] + c.tangent_2 * p[5];
-  c.work.allowed_Ns = c.friction * pressed;
+  const V normal = p[0] + p[1] + p[2] + p[3];
+  c.total = c.normal * normal + c.tangent_1 * p[4] + c.tangent_2 * p[5];
+  c.work.allowed_Ns = c.friction * normal;
   c.work.excess_Ns = max(zero, sqrt(p[4] * p[4] + p[5] * p[5]) - c.work.allowed_Ns);
   Pairs<lanes, kSplit> mean(c, bodies, &BodyRow::start);
   const Pairs<lanes, kSplit> end(c, bodies, &BodyRow::velocity);
@@ -62,14 +62,14 @@ void find_work(ConstraintBlock<lanes>& c, const SolverRows& bodies) {
 }
 
 template <std::uint32_t lanes>
-void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const float* share_of_row) {
+void scale_impulses(ConstraintBlock<lanes>& c, ArmLanes<lanes>* arms, const float* scale_of_row) {
   using V = WideOf<lanes>;
-  const V share = share_of<lanes>(c, share_of_row);
+  const V share = scale_of<lanes>(c, scale_of_row);
   for_all_impulses(c, [&](std::uint32_t slot, const V& impulse) {
     c.step_impulse[slot] += impulse * (share - splat<V>(1));
   });
   for_all_impulses(c, [&](std::uint32_t, V& impulse) { impulse *= share; });
-  if (arms) arms->owed_a = arms->owed_a * share, arms->owed_b = arms->owed_b * share;
+  if (arms) arms->pending_a = arms->pending_a * share, arms->pending_b = arms->pending_b * share;
 }
 
 }  // namespace sunder::solver

@@ -1,0 +1,40 @@
+// Dense clusters: very many overlapping bodies in one place, as when thousands appear at one point.
+// Each overlaps all others, and the work would grow with the square of their number.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/contacts.h"
+
+namespace sunder::solver {
+
+/// Results of the narrow phase for a chunk of pairs.
+struct ContactChanges {
+  std::vector<std::pair<PairSlot, Manifold>> touched;
+  std::vector<PairSlot> separated, removed;
+  std::vector<PairSlot> deep;  ///< Pairs with a deep contact.
+  /// Number of pairs with a body that moved, and of pairs tested.
+  std::uint64_t moved = 0, tested = 0;
+
+  void clear() {
+    touched.clear(), separated.clear(), removed.clear(), deep.clear();
+    moved = tested = 0;
+  }
+};
+
+class DenseClusters {
+ public:
+  /// Leaves out contacts between bodies that have more than kMaxDeepContacts deep ones, different
+  /// contacts in each step, so that no body has many more than that. Bodies with fewer deep
+  /// contacts keep all of theirs. The choice does not depend on the number of threads.
+  void drop_contacts(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
+
+ private:
+  std::uint64_t times_ = 0;
+};
+
+}  // namespace sunder::solver
