@@ -98,7 +98,8 @@ TEST(Blast, InsideASolidWhoseFacesAllPointAwayAppliesNoImpulse) {
 }
 
 TEST(Blast, BreaksASolidIfItsEnergyExceedsTheCrackEnergy) {
-  // Each box gets 0.36 i N·s, which is 0.065 i² / 1000 J together; the crack takes 100 J.
+  // With an impulse of i N·s/m² each box gets 0.36 i N·s: 0.065 i² / 1000 J together. The crack
+  // takes 100 J.
   for (const double impulse : {500.0, 5000.0}) {
     Scene scene = empty_scene();
     scene.materials[0].impact_radius_m = 10;

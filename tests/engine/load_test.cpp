@@ -284,7 +284,7 @@ TEST(LoadStage, AFrameMayUseTheBudgetThatTheFrameBeforeLeft) {
   EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 20})) << "of one frame before, and no more";
 }
 
-TEST(LoadStage, PassesTheStressMemoryBack) {
+TEST(LoadStage, PassesTheStressCacheBack) {
   struct Marked final : StressCache {};
   const auto memory = std::make_shared<const Marked>();
   StressCachePtr seen;

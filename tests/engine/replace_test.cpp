@@ -64,7 +64,7 @@ struct Column {
   }
 };
 
-TEST(CarryOut, TheRemainderEqualsANewActorOfItsConvexes) {
+TEST(ApplyBreak, TheRemainderEqualsANewActorOfItsConvexes) {
   Column column;
   Actor& remainder = column.actor(0);
   const double whole_J = remainder.least_J;
@@ -101,7 +101,7 @@ Compound overlapping() {
   return compound;
 }
 
-TEST(CarryOut, SubtractsAnOverlapOnceHoweverManyOfItsConvexesAreRemoved) {
+TEST(ApplyBreak, SubtractsAnOverlapOnceHoweverManyOfItsConvexesAreRemoved) {
   Column column(overlapping());
   ASSERT_NEAR(column.actor(0).volume_m3, 3, 1e-12);
   BreakEdit edit;
@@ -115,7 +115,7 @@ TEST(CarryOut, SubtractsAnOverlapOnceHoweverManyOfItsConvexesAreRemoved) {
   EXPECT_NEAR(column.actor(1).volume_m3, 3, 1e-12);
 }
 
-TEST(CarryOut, PiecesKeepTheStressMemoryAndRootKeyOfTheirActor) {
+TEST(ApplyBreak, PiecesKeepTheStressCacheAndRootKeyOfTheirActor) {
   struct Marked final : StressCache {};
   Column column;
   const auto memory = std::make_shared<const Marked>();

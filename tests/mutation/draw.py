@@ -35,7 +35,7 @@ KEYWORDS = ("if", "for", "while", "do", "else", "goto", "const", "auto", "struct
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change of one line; `edit(k)` is the text for [start, end) that has original and mutant."""
+    """One change of one line; `edit(k)` is the text for [start, end) with original and mutant."""
     path: str
     line: int
     kind: str

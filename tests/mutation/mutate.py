@@ -95,7 +95,7 @@ def fits(mutant, others):
 
 
 def drawn(texts, seeds, count, wrong):
-    """Returns, by number, the first `count` mutants of each seed that compile and do not overlap."""
+    """Returns, by number, the first `count` mutants of each seed that compile without overlap."""
     mutants = {}
     for place, seed in enumerate(seeds):
         number, last = place * 1000, len(mutants) + count
@@ -130,8 +130,8 @@ def build(tree, seeds, count, jobs):
 
 
 def run(tree, program, tests=None, most_s=600, **environment):
-    """Returns True if the program's tests pass within `most_s` of processor time, and the first test
-    that fails, after which none is run."""
+    """Returns True if the program's tests pass within `most_s` of processor time, and the first
+    test that fails, after which none is run."""
     environment = {k: str(v) for k, v in environment.items()}
     environment |= {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive",
                     "GTEST_FILTER": ":".join(tests or ["*"]), "GTEST_FAIL_FAST": "1",
@@ -176,7 +176,7 @@ def find_reach(tree, programs, jobs):
 
 
 def rounds(tests, longest_s):
-    """Yields rounds of tests, the quickest first: a program, some of its tests, and a time limit."""
+    """Yields rounds of tests, the quickest first: a program, some of its tests, a time limit."""
     for shortest_ms, longest_ms in ((0, 100), (100, 1000), (1000, 1000 * longest_s)):
         of_program = {}
         for ms, program, test in sorted(tests):
