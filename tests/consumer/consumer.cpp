@@ -1,6 +1,5 @@
-// A program that uses the installed library, as a game or a tool would: a scene made in code, a
-// scene read from text, statistics of a run, a recording, an image. Its exit code is 1 if a check
-// fails.
+// A program that uses the installed library, as a game or a tool would: scenes made in code and
+// from text, statistics, a recording, an image. Its exit code is 1 if a check fails.
 #include <sunder/sunder.h>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Tests of scripted actions (blasts, removals, drives, joints, wrecking balls) and of the ageing of
-// fragments.
+// Tests of scripted actions (blasts, removals, drives, joints, wrecking balls) and of ageing.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -98,8 +97,7 @@ TEST(Blast, InsideASolidWhoseFacesAllPointAwayAppliesNoImpulse) {
 }
 
 TEST(Blast, BreaksASolidIfItsEnergyExceedsTheCrackEnergy) {
-  // With an impulse of i N·s/m² each box gets 0.36 i N·s: 0.065 i² / 1000 J together. The crack
-  // takes 100 J.
+  // For i N·s/m², each box gets 0.36 i N·s: 0.065 i² / 1000 J together; the crack takes 100 J.
   for (const double impulse : {500.0, 5000.0}) {
     Scene scene = empty_scene();
     scene.materials[0].impact_radius_m = 10;

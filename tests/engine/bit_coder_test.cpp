@@ -1,5 +1,4 @@
-// Tests of the range coder: numbers are read back, repeated numbers take few bits, and damaged
-// bytes do no harm.
+// Tests of the range coder: round trips, size of repeated numbers, damaged bytes.
 #include "engine/io/recording/bit_coder.h"
 
 #include <gtest/gtest.h>

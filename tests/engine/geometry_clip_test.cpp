@@ -1,5 +1,4 @@
-// Tests of clip() on convexes: for any plane, the pieces are closed and their volumes sum to the
-// whole.
+// Tests of clip() on convexes: for any plane, pieces are closed and their volumes sum to the whole.
 #include <algorithm>
 #include <cmath>
 
@@ -175,8 +174,7 @@ TEST(Clip, CornerNormalsAreInterpolatedAlongCutEdges) {
       EXPECT_NEAR(half.corner_normals[c].norm(), 1, 1e-6);
       const Vec3& v = half.vertices[half.corners[c]];
       if (std::abs(v.z() - 0.1) > 1e-12 || std::abs(face.plane.normal.y()) > 0.5) continue;
-      // The vertex is on the facet between the corners at 0 and 45 degrees; their normals are
-      // radial.
+      // The vertex is on the facet between the corners at 0 and 45°, whose normals are radial.
       const double corner_z = std::sqrt(0.5), t = 0.1 / corner_z;
       const Vec3 start(v.x() > 0 ? 1 : -1, 0, 0), end(start.x() * corner_z, 0, corner_z);
       const Vec3 expected = ((1 - t) * start + t * end).normalized();

@@ -1,5 +1,4 @@
-// Meshes that are not convex, for the geometry tests: concave faces, holes, tunnels, several
-// shells.
+// Meshes that are not convex, for tests: concave faces, holes, tunnels, several shells.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,4 @@
-// Tests of clip() on meshes that are not convex: pieces are watertight and their volumes sum to the
-// whole.
+// Tests of clip() on meshes: pieces are watertight and their volumes sum to the whole.
 #include <algorithm>
 #include <cmath>
 

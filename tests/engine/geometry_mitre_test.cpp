@@ -1,5 +1,4 @@
-// Tests of mitres of bent sections: for any bend, both sides are closed, end in one plane, and keep
-// their volume.
+// Tests of mitres: at any bend, both sides are closed, end in one plane, and keep their volume.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,8 +82,7 @@ TEST(Mitre, BothSidesEndInOneFaceAndKeepTheirVolume) {
       expect_old_planes(b, bent_b, plane->b);
       if (axis.x() == 0) expect_same_outline(bent_a, bent_b, X_AB);
       if (degrees == 120 && axis.y() == 0) {
-        // With 16 blocks of ⅛ m, the plane reaches the 7th block below, at 0.87 m, and the 4th
-        // above, at 0.43 m.
+        // The plane reaches the 7th block of ⅛ m below, at 0.87 m, and the 4th above, at 0.43 m.
         EXPECT_EQ(a.size() - bent_a.size(), 2u * (6 + 3));
       }
     }
@@ -240,8 +238,7 @@ TEST(Mitre, SidesThatFlareAreExtendedButNotWithoutLimit) {
   const Plane level = Plane::through(Vec3(0, 1.5, 0), Vec3::UnitY());
   const ConvexPolyhedron wide = frustum(4);  // a pyramid upside down, its tip at y = −1
   EXPECT_NEAR(volume(with_top_in(wide, level)), (5 * 5 * 2.5 - 2 * 2 * 1) / 3.0, 1e-13);
-  // Sides at 45° are parallel to the steep plane and never reach it, but volume beyond it is cut
-  // off.
+  // Sides at 45° never reach the steep plane, parallel to them, but volume beyond it is cut off.
   const Plane steep = Plane::through(Vec3(0, 1, 0), Vec3(1, 1, 0).normalized());
   const ConvexPolyhedron cut = with_top_in(wide, steep);
   EXPECT_TRUE(is_closed(cut));

@@ -187,8 +187,7 @@ TEST(LoadStage, ATorqueWithoutAForceIsALoadToo) {
   EXPECT_NEAR(run.evaluated_loads[0].torque_Nm.y(), 5e4, 0.1 * 5e4);
 }
 
-// The stress ρ ω² r² reaches the limit of 1 MPa at ω² = 667 s⁻², and a thirtieth of it at 4.5
-// rad/s.
+// The stress ρ ω² r² is the limit of 1 MPa at ω² = 667 s⁻², and a thirtieth of it at 4.5 rad/s.
 TEST(LoadStage, EvaluatesSpinOnceItCanMatterAndAgainWhenItChanges) {
   Scene scene = scene_of(two_boxes(false));
   scene.gravity_W.setZero();

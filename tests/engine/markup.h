@@ -1,5 +1,4 @@
-// A check that HTML or SVG is well-formed: every tag closed, every attribute quoted, every & an
-// entity.
+// A check that HTML or SVG is well-formed: tags closed, attributes quoted, each & an entity.
 #pragma once
 
 #include <set>

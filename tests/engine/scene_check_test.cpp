@@ -1,5 +1,4 @@
-// Tests of check_scene(): a scene that cannot be run is refused with a message that names the
-// member.
+// Tests of check_scene(): an invalid scene is refused with a message that names the member.
 #include "engine/model/checks/scene_check.h"
 
 #include <functional>

@@ -303,8 +303,7 @@ TEST_F(Recording, OfAnUnreadableVersionIsRefusedWithAMessage) {
   EXPECT_NE(message.find("record it again"), std::string::npos) << message;
 }
 
-// Version 5 is version 6 without names and without the keys that bodies came from; this recording
-// is of a stack with a shot.
+// Version 5 has no names and no keys of former bodies; this recording is of a stack with a shot.
 TEST_F(Recording, OfTheVersionBeforeIsPlayedWithoutNames) {
   RecordingReader take(SUNDER_TAKES_FOLDER "/whole");
   std::size_t frames = 0;

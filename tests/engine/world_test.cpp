@@ -1,5 +1,4 @@
-// Tests of the break stage and of Simulation, with scripted physics and breaker: energy, momentum,
-// order.
+// Tests of the break stage and of Simulation, with scripted physics and breaker.
 #include <algorithm>
 #include <string_view>
 
@@ -82,8 +81,7 @@ struct ScriptedRun {
                    std::make_unique<ScriptedBreaker>(kAreaPerPart)) {}
 };
 
-/// Returns a script in which bodies `a` and `b` approach each other at every collide(). Keys count
-/// solids first, then balls.
+/// Returns a script of a contact of `a` and `b` at every collide(); keys are solids, then balls.
 ScriptedPhysics::Script always(std::uint32_t a, std::uint32_t b, Vec3 point, Vec3 normal) {
   return [=](const ScriptedPhysics& physics, int) { return physics.approach(a, b, point, normal); };
 }

@@ -1,5 +1,4 @@
-// Fuzz target: any bytes as a pattern file give a pattern that breaks a box and keeps its volume,
-// or an InputError.
+// Fuzz target: any bytes as a pattern file break a box and keep its volume, or give an InputError.
 #include <cmath>
 #include <cstdint>
 #include <sstream>

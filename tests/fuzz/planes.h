@@ -25,8 +25,7 @@ Vec3 some_vertex(const Solid& solid, std::uint8_t byte) {
   return solid.vertices[byte % solid.vertices.size()];
 }
 
-/// Returns a plane of one of four kinds: anywhere, on a coarse grid, almost in a face, or through
-/// three vertices.
+/// Returns a plane anywhere, on a coarse grid, almost in a face, or through three vertices.
 template <class Solid>
 Plane read_plane(const std::uint8_t* bytes, const Solid& solid) {
   const auto number = [&](int i) {

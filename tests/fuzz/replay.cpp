@@ -1,6 +1,5 @@
 // Runs a fuzz target on each file of a folder, with any compiler, so that bugs found stay fixed.
-// Usage: fuzz_replay TARGET FOLDER. With libFuzzer (SUNDER_FUZZ) the program is the fuzzer of the
-// target SUNDER_FUZZED.
+// Usage: fuzz_replay TARGET FOLDER. With libFuzzer (SUNDER_FUZZ) it is the fuzzer of SUNDER_FUZZED.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

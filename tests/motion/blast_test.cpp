@@ -1,5 +1,4 @@
-// Tests that a blast breaks a wall by bending, where the moment is largest, at the impulse of beam
-// theory.
+// Tests that a blast breaks a wall by bending, at the place and impulse of beam theory.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,8 +11,7 @@ namespace {
 constexpr double kHeight_m = 4, kThickness_m = 0.4;
 constexpr double kDensity = 2000, kYoungs_Pa = 1e10, kTensile_Pa = 1e6;
 
-/// Returns a scene of a wall, anchored at its foot, without gravity, and of a blast so far away
-/// that its wave is plane.
+/// Returns a scene without gravity of a wall, anchored at its foot, and a blast with a plane wave.
 Scene blasted_wall(double impulse_Ns_m2) {
   Scene scene = bare_scene(1.0 / 120, 10, kDensity);
   Material& material = scene.materials[0];

@@ -1,5 +1,4 @@
-// Tests that each break event names a body of the frame before, and the bodies of its own frame
-// that came from it.
+// Tests that each break event names a body of the frame before, and the bodies that came from it.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>

@@ -148,8 +148,7 @@ TEST(Conservation, AThousandRandomBreaksInMotionKeepMassAndMomentumAndGainNoEner
   EXPECT_GE(breaks, 1000u);
 }
 
-/// Returns the energy gained in solves during ten steps from a break on, as a fraction of the
-/// largest kinetic energy.
+/// Returns the energy gained in solves of ten steps from a break on, relative to the largest.
 double energy_gain_of_solves(std::uint64_t seed) {
   const Case one = random_case(seed);
   auto spy = std::make_unique<SpyPhysics>(solver::make_rigid_physics({one.scene.gravity_W}));

@@ -1,5 +1,4 @@
-// Tests of bodies that the script moves along keyframes: they break bodies in their way, and are
-// released in time.
+// Tests of bodies that the script moves along keyframes: impacts, release, joints, blasts.
 #include <gtest/gtest.h>
 
 #include "engine/base/hash.h"

@@ -12,8 +12,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// Returns the x of each break of a wall in its first frame under blasts at `blasts_at_x`,
-/// ascending.
+/// Returns the x of each break of a wall in its first frame under these blasts, ascending.
 std::vector<double> broken_at_x(bool anchored, std::initializer_list<double> blasts_at_x) {
   std::string text =
       "[scene]\ndescription = \"x\"\ngravity = [0, 0, 0]\n[accuracy]\ndt_s = 0.01666666667\n"
