@@ -26,12 +26,12 @@ Keys keys_of(const Frame& frame) {
 /// number of bodies that were created and broken within the frame.
 std::size_t expect_attributed(const Frame& before, const Frame& frame) {
   const Keys last = keys_of(before), now = keys_of(frame);
-  Keys born;
+  Keys created;
   std::size_t short_lived = 0;
   for (std::size_t i = 0; i < frame.breaks.size(); ++i) {
     const BreakEvent& event = frame.breaks[i];
     const bool is_known = last.contains(event.parent_key);
-    EXPECT_TRUE(is_known || born.contains(event.parent_key)) << event.parent_key;
+    EXPECT_TRUE(is_known || created.contains(event.parent_key)) << event.parent_key;
     EXPECT_TRUE(last.contains(event.previous_key)) << event.previous_key;
     EXPECT_LT(event.material.value, frame.materials->size());
     EXPECT_LE(event.child_keys.size(), event.pieces);
@@ -42,11 +42,11 @@ std::size_t expect_attributed(const Frame& before, const Frame& frame) {
                   std::any_of(frame.breaks.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                               frame.breaks.end(), breaks))
           << child;
-      born.insert(child);
+      created.insert(child);
     }
   }
   for (const std::uint64_t key : now)
-    EXPECT_TRUE(last.contains(key) || born.contains(key)) << key << " comes from nowhere";
+    EXPECT_TRUE(last.contains(key) || created.contains(key)) << key << " comes from nowhere";
   return short_lived;
 }
 

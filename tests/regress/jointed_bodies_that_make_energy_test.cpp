@@ -76,9 +76,9 @@ class Tangle {
 /// Largest errors of a hundred tangles.
 struct Worst {
   double rise = 0;  ///< Increase of energy over its minimum so far, relative to the initial energy.
-  double push = 0;  ///< Change of momentum, relative to that of the balls thrown.
-  double spin = 0;  ///< Change of angular momentum when a joint breaks and nothing touches,
-                    ///< relative to that of the balls thrown at a distance of 1 m.
+  double momentum = 0;  ///< Change of momentum, relative to that of the balls thrown.
+  double spin = 0;      ///< Change of angular momentum when a joint breaks and nothing touches,
+                        ///< relative to that of the balls thrown at a distance of 1 m.
   int broken = 0;
 };
 
@@ -103,10 +103,10 @@ Worst run_tangles(double restitution) {
       worst.rise = std::max(worst.rise, (now_J - least_J) / first_J);
       least_J = std::min(least_J, now_J);
     }
-    worst.push = std::max(worst.push, (world.momentum() - p).norm() / tangle.thrown_Ns);
+    worst.momentum = std::max(worst.momentum, (world.momentum() - p).norm() / tangle.thrown_Ns);
   }
   std::printf("restitution %.1f: energy rises by %.1e, p changes by %.1e, L by %.1e; %d torn\n",
-              restitution, worst.rise, worst.push, worst.spin, worst.broken);
+              restitution, worst.rise, worst.momentum, worst.spin, worst.broken);
   EXPECT_GT(worst.broken, 50);
   return worst;
 }
@@ -114,14 +114,14 @@ Worst run_tangles(double restitution) {
 TEST(RegressJoints, JointedBodiesGainNoEnergyInAnImpact) {
   const Worst worst = run_tangles(0);
   EXPECT_LT(worst.rise, 1e-3) << "what fast turns make of a substep; 5e-2 without a guard";
-  EXPECT_LT(worst.push, 1e-5);
+  EXPECT_LT(worst.momentum, 1e-5);
   EXPECT_LT(worst.spin, 1e-4);
 }
 
 TEST(RegressJoints, JointedBodiesGainHardlyAnyEnergyWithRestitution) {
   const Worst worst = run_tangles(0.9);
   EXPECT_LT(worst.rise, 3e-3);
-  EXPECT_LT(worst.push, 1e-5);
+  EXPECT_LT(worst.momentum, 1e-5);
 }
 
 }  // namespace
