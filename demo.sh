@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh Debian to a video: installs what is missing, builds, and has a house shot to rubble.
-# Ends with out/demo.mp4, out/demo.png and a table of frame timings. Safe to run again.
+# Installs missing packages on Debian, builds, and renders a house that is shot to rubble. Writes
+# out/demo.mp4 and out/demo.png, and prints a table of frame timings. Can be run again at any time.
 set -euo pipefail
 cd "$(dirname "$0")"
 source cmake/setup.sh

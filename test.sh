@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the tests. With --all also those that take more than ten
-# seconds, the extremes, the truths at every preset and the soak; then the unit tests once more under
-# the address and undefined-behaviour sanitizers. Safe to run again.
+# Installs missing packages, builds, and runs the tests. With --all also runs the tests that take
+# more than ten seconds, the extremes, the truths at every preset and the soak test, and then the
+# unit tests under the address and undefined-behaviour sanitizers. Can be run again at any time.
 set -euo pipefail
 all=false
 case "${1:-}" in
@@ -23,7 +23,7 @@ cmake --build --preset release
 
 say "Running the tests"
 mkdir -p out
-# Truths and extremes have an entry of ctest a row; truths one at the default preset alone, too.
+# ctest has an entry per row of truths and extremes, and one per row at the default preset.
 skipped="extreme|truth_all|soak|long"
 if $all; then skipped="_default"; fi
 ctest --preset release -j "$(nproc)" --output-junit "$PWD/out/tests.xml" -LE "$skipped"

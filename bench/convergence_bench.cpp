@@ -1,7 +1,9 @@
-// How fast the solver comes to the solution of one step, by the number of colours: a falling pile,
-// a pyramid and a stack are frozen, and one step is solved by more and more sweeps. Printed is the
-// distance of the velocities to those of very many coloured sweeps, by kinetic energy, over the
-// distance at which no contact acts at all. See docs/decisions/022-mass-splitting-and-lanes.md.
+// Convergence of the rigid solver within one step, by number of colours. Begin at measure().
+//
+// A settling pile, a pyramid and a stack are frozen, and one step is solved with more and more
+// sweeps. The printed error is the distance of the velocities from those of 16,384 coloured sweeps,
+// in the norm of kinetic energy, divided by the distance without any contact. See
+// docs/decisions/022-mass-splitting-and-lanes.md.
 //
 //   convergence_bench [--csv]
 #include <cmath>
@@ -24,7 +26,7 @@ using bench::stack;
 constexpr double kDt_s = 1.0 / 60;
 constexpr int kColors[] = {0, 8, 64};
 constexpr int kSweeps[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
-constexpr int kMany = 16384;
+constexpr int kReferenceSweeps = 16384;
 
 struct World {
   std::unique_ptr<Physics> physics;
@@ -43,7 +45,7 @@ World make_world(const Pile& set, int colors, int sweeps) {
   return world;
 }
 
-/// The set as it is after `time_s`.
+/// Replaces poses and velocities of the pile by those after `time_s` of simulation.
 void freeze(Pile& set, double time_s) {
   World world = make_world(set, 64, 1);
   for (int i = 0; i < time_s / kDt_s; ++i) {
@@ -58,7 +60,8 @@ void freeze(Pile& set, double time_s) {
   }
 }
 
-/// Velocities scaled so that squares are energies, of body after body.
+/// Appends a body's velocities, scaled so that the sum of their squares is twice its kinetic
+/// energy.
 void add_scaled(const BodyDesc& body, const Quat& rotation_WB, const Vec3& velocity_W,
                 const Vec3& angular_velocity_W, std::vector<double>& all) {
   const Vec3 linear = std::sqrt(body.mass_kg) * velocity_W;
@@ -67,8 +70,8 @@ void add_scaled(const BodyDesc& body, const Quat& rotation_WB, const Vec3& veloc
   for (const Vec3& part : {linear, angular}) all.insert(all.end(), part.begin(), part.end());
 }
 
-/// After one step; none by no sweeps.
-std::vector<double> solved(const Pile& set, int colors, int sweeps) {
+/// Returns the scaled velocities of all dynamic bodies after one step.
+std::vector<double> solve_step(const Pile& set, int colors, int sweeps) {
   World world = make_world(set, colors, sweeps);
   world.physics->collide(kDt_s);
   world.physics->solve(kDt_s, 1);
@@ -81,8 +84,8 @@ std::vector<double> solved(const Pile& set, int colors, int sweeps) {
   return all;
 }
 
-/// As if nothing touched.
-std::vector<double> flown(const Pile& set) {
+/// Returns the scaled velocities of all dynamic bodies after one step of free fall.
+std::vector<double> free_fall(const Pile& set) {
   std::vector<double> all;
   for (const BodyDesc& body : set.bodies) {
     if (body.is_static) continue;
@@ -102,8 +105,8 @@ void measure(const char* name, Pile set, double time_s, double friction, bool cs
   for (BodyDesc& body : set.bodies)
     for (ShapeDesc& shape : body.shapes) shape.friction = friction;
   freeze(set, time_s);
-  const std::vector<double> truth = solved(set, 64, kMany);
-  const double from = distance(flown(set), truth);
+  const std::vector<double> reference = solve_step(set, 64, kReferenceSweeps);
+  const double no_contact = distance(free_fall(set), reference);
   if (!csv) std::printf("\n%s, friction %.1f\n%8s", name, friction, "sweeps");
   for (const int colors : kColors)
     if (!csv) std::printf("     K = %-2d", colors);
@@ -112,7 +115,8 @@ void measure(const char* name, Pile set, double time_s, double friction, bool cs
     if (csv) std::printf("%s,%g,%d", name, friction, sweeps);
     if (!csv) std::printf("%8d", sweeps);
     for (const int colors : kColors)
-      std::printf(csv ? ",%.3e" : "  %9.2e", distance(solved(set, colors, sweeps), truth) / from);
+      std::printf(csv ? ",%.3e" : "  %9.2e",
+                  distance(solve_step(set, colors, sweeps), reference) / no_contact);
     std::printf("\n");
     std::fflush(stdout);
   }

@@ -1,5 +1,4 @@
-// What becomes of scenes that ask for too much, at every preset: docs/extremes.md is what
-// --markdown prints.
+// Prints results for extreme scenes at every preset; docs/extremes.md has the output of --markdown.
 #include "bench/extremes/extreme.h"
 #include "bench/truths/table.h"
 

@@ -1,4 +1,4 @@
-// The command lines of benchmarks that print tables of their own.
+// Command-line options of the benchmark programs that print their own tables.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace sunder::bench {
 
-/// A flag, and where its value goes; one that goes to a bool has none.
+/// An option and the variable that receives its value; an option for a bool takes no value.
 struct Flag {
   std::string_view name;
   std::variant<bool*, int*, double*, std::string*> value;
 };
 
-/// False for what is none of `flags`, and for a value that is missing.
+/// Reads the options into their variables. Returns false for an unknown option or a missing value.
 inline bool read_flags(int argc, char** argv, std::initializer_list<Flag> flags) {
   for (int i = 1; i < argc; ++i) {
     const auto flag = std::find_if(flags.begin(), flags.end(),

@@ -1,10 +1,10 @@
-// How long a fracture takes: patterns, events small and large, contacts and islands.
+// Timing of fracture: patterns, small and large break events, contacts and islands.
 //
 //   build/fracture_bench --benchmark_filter=Event
 //
-// The marks (shared machine, one thread unless named otherwise): a pattern of 100 cells 3 ms;
-// 50 cells on one convex 1 ms; 30 convexes 3 ms; 50 of 20,000 convexes 5 ms, and on 40,000 at most
-// 1.3 times what it takes on 10,000; contacts and islands of 19.7k convexes from scratch 60 ms.
+// Targets (shared machine, one thread unless stated otherwise): pattern of 100 cells 3 ms; 50 cells
+// on one convex 1 ms; 30 convexes 3 ms; 50 of 20,000 convexes 5 ms, and on 40,000 at most 1.3 times
+// the time on 10,000; contacts and islands of 19,700 convexes from scratch 60 ms.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,7 +60,7 @@ void Event_on_30_convexes(benchmark::State& state) {
 }
 BENCHMARK(Event_on_30_convexes)->Unit(benchmark::kMillisecond);
 
-/// A building of n convexes, made ready once; the sphere touches about 50 of them.
+/// A building of about n unit cubes, with an impact sphere that overlaps about 50 of them.
 struct Building {
   explicit Building(std::int64_t convexes)
       : side(static_cast<int>(std::cbrt(static_cast<double>(convexes)) + .5)),
@@ -95,7 +95,7 @@ void Event_in_a_building(benchmark::State& state) {
 }
 BENCHMARK(Event_in_a_building)->Arg(10000)->Arg(20000)->Arg(40000)->Unit(benchmark::kMillisecond);
 
-/// Breaking and carrying it out, at ever new places of one building.
+/// Plans and applies breaks at random places of one building.
 void Event_carried_out_in_a_building(benchmark::State& state) {
   set_threads(1);
   Building building(state.range(0));
@@ -118,7 +118,7 @@ BENCHMARK(Event_carried_out_in_a_building)
     ->Iterations(40)
     ->Unit(benchmark::kMillisecond);
 
-/// Islands after 50 convexes are gone, from what is known.
+/// Finds the islands after the removal of 50 convexes, from the structure's stored links.
 void Islands_after_a_break(benchmark::State& state) {
   const Building building(state.range(0));
   const std::vector<ConvexSlot> gone = building.sphere.touched(building.structure);

@@ -1,4 +1,4 @@
-// What cutting, weighing and finding convexes costs.
+// Timing of geometry: clipping, mass properties, hulls and bounding volume hierarchies.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -23,7 +23,7 @@ Vec3 random_point(Random& random, double size) {
   return {x, y, random.uniform(-size, size)};
 }
 
-/// The planes of each cell of a Voronoi diagram, nearest first.
+/// Returns the bisector planes of each cell of a Voronoi diagram, nearest neighbour first.
 std::vector<std::vector<Plane>> voronoi_planes(std::size_t cells) {
   Random random(1);
   std::vector<Vec3> sites(cells);
@@ -44,7 +44,7 @@ std::vector<std::vector<Plane>> voronoi_planes(std::size_t cells) {
   return planes;
 }
 
-/// A convex about as complex as the cell of a Voronoi diagram, by cutting the corners of a box.
+/// Returns a box with corners cut off, about as complex as a cell of a Voronoi diagram.
 ConvexPolyhedron rounded_box(int cuts) {
   Random random(2);
   ConvexPolyhedron solid = make_box(-Vec3::Ones(), Vec3::Ones()), next;
@@ -132,7 +132,7 @@ void hull_of_points(benchmark::State& state) {
 }
 BENCHMARK(hull_of_points)->Arg(30)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
-/// A torus of 2 * around * tube triangles, turned so that nothing lies along an axis.
+/// Returns a torus of 2 * around * tube triangles, rotated so that no edge is parallel to an axis.
 PolygonMesh torus(std::uint32_t around, std::uint32_t tube) {
   PolygonMesh mesh;
   const Quat turn = Quat(0.8, 0.2, 0.4, 0.4).normalized();

@@ -1,5 +1,5 @@
-// Figure 13: how tight fits of a convex are, and what they cost. The table first, then the times.
-// SUNDER_MESHES names the folder with good/bunny_12k.off; a bumpy ball stands in where it is not.
+// Tightness and cost of hulls fitted to points, as in the paper's figure 13: a table, then times.
+// SUNDER_MESHES names the folder with good/bunny_12k.off, which a bumpy ball replaces if missing.
 #include <cstdio>
 #include <filesystem>
 

@@ -1,7 +1,7 @@
-// What debris and dust cost a step. Marks on 2 cores: 50,000 debris 4 ms; dust on a grid of
-// 64 × 32 × 64 with 20,000 particles 8 ms; nothing without dust.
+// Timing of a step of debris and dust. Targets on 2 cores: 50,000 debris particles 4 ms; 20,000
+// dust particles on a grid of 64 × 32 × 64 8 ms; no cost without dust.
 //
-// The argument is the number of threads; the column CPU is that of all of them together.
+// The argument is the number of threads; the column CPU is the processor time of all threads.
 #include <algorithm>
 #include <deque>
 #include <vector>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDt = 1.0 / 60;
 
-/// A town block in pieces: 800 boxes on and above a ground of 20 × 20 m, a quarter of them moving.
+/// Rubble of 800 boxes on and above a ground of 20 × 20 m; the fraction `moving` has a velocity.
 struct Rubble {
   explicit Rubble(double moving) {
     Random random(4);
@@ -48,8 +48,8 @@ struct Rubble {
   std::vector<ObstacleShape> shapes;
 };
 
-/// Emits `count` particles from 400 faces among the rubble.
-void crumble(Particles& particles, std::uint32_t count, double debris_ratio) {
+/// Emits `count` particles from 400 faces in the rubble.
+void emit_particles(Particles& particles, std::uint32_t count, double debris_ratio) {
   Random random(8);
   for (int f = 0; f < 400; ++f) {
     const Vec3 at(random.uniform(-7, 7), random.uniform(0.5, 4), random.uniform(-7, 7));
@@ -71,8 +71,7 @@ std::unique_ptr<Particles> make_particles(benchmark::State& state) {
   return solver::make_debris_and_dust(options);
 }
 
-/// Steps, and remembers the median and the quickest: what a step takes where others share the
-/// processors.
+/// Times steps and keeps their median and minimum, which other load changes little.
 class Steps {
  public:
   void advance(Particles& particles, const Obstacles& obstacles) {
@@ -102,8 +101,7 @@ void show(benchmark::State& state, Steps& steps, const Particles& particles) {
   state.counters["iterations"] = report.air_iterations;
 }
 
-/// The first second of `count` particles among rubble, a quarter of it moving; it is not timed how
-/// they come.
+/// Times the first second of `count` particles in rubble, a quarter of which moves, after emission.
 void run_first_second(benchmark::State& state, std::uint32_t count, double debris_ratio) {
   const Rubble rubble(0.25);
   auto particles = make_particles(state);
@@ -113,7 +111,7 @@ void run_first_second(benchmark::State& state, std::uint32_t count, double debri
     if (step == 60) {
       state.PauseTiming();
       particles = make_particles(state);
-      crumble(*particles, count, debris_ratio);
+      emit_particles(*particles, count, debris_ratio);
       if (debris_ratio == 0) particles->advance(kDt, rubble.view());
       step = 0;
       state.ResumeTiming();
@@ -124,14 +122,14 @@ void run_first_second(benchmark::State& state, std::uint32_t count, double debri
   show(state, steps, *particles);
 }
 
-/// All of them awake.
+/// Times 50,000 debris particles that are all awake.
 void debris_awake(benchmark::State& state) { run_first_second(state, 50000, 1); }
 
 void debris_asleep(benchmark::State& state) {
   const Rubble rubble(0);
   auto particles = make_particles(state);
   Steps steps;
-  crumble(*particles, 50000, 1);
+  emit_particles(*particles, 50000, 1);
   for (int step = 0; step < 600; ++step) particles->advance(kDt, rubble.view());
   for (auto _ : state) steps.advance(*particles, rubble.view());
   show(state, steps, *particles);

@@ -1,4 +1,4 @@
-// Piles of bodies that benchmarks share.
+// Piles of bodies that several benchmarks use.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace sunder::bench {
 
-/// Bodies to add, and the hulls they refer to.
+/// Bodies to add to a physics world, and the hulls that their shapes point to.
 struct Pile {
   std::vector<BodyDesc> bodies;
   std::vector<std::unique_ptr<ConvexPolyhedron>> hulls;
@@ -59,7 +59,7 @@ struct Pile {
   }
 };
 
-/// `count` hulls of 8 to 16 vertices, 0.1 to 0.5 m, dropped into a pit.
+/// Returns `count` hulls of 8 to 16 vertices, 0.1 to 0.5 m in size, in a grid between four walls.
 inline Pile rubble(int count, std::uint64_t seed = 1) {
   constexpr double kPitch_m = 0.45;
   Pile set;
@@ -81,8 +81,8 @@ inline Pile rubble(int count, std::uint64_t seed = 1) {
   return set;
 }
 
-/// A running bond of `columns` by `rows` bricks (shifted by less than half, or its ends would
-/// fall).
+/// Returns a running bond of `columns` by `rows` bricks. Courses are shifted by 0.4 of a brick, as
+/// end bricks would fall with half of one.
 inline Pile wall(int columns, int rows) {
   Pile set;
   set.ground();

@@ -1,4 +1,4 @@
-// The real meshes that benchmarks measure, which are not part of the repository.
+// Paths of the real meshes that benchmarks use; these meshes are not part of the repository.
 #pragma once
 
 #include <cstdlib>
@@ -7,8 +7,8 @@
 
 namespace sunder::bench {
 
-/// Where a mesh of the set good/ lies if it is there: in the folder that SUNDER_MESHES names, or in
-/// shared/meshes beside the repository.
+/// Returns the path of a mesh of the set good/, whether or not the file exists. The folder is the
+/// one that SUNDER_MESHES names, or shared/meshes beside the repository.
 inline std::filesystem::path real_mesh(const std::string& name) {
   const char* folder = std::getenv("SUNDER_MESHES");
   const auto beside = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();

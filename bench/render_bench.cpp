@@ -1,7 +1,8 @@
-// What a picture costs at 1280x720, whole and pass by pass: N broken bricks in a heap, the house as
-// it falls, a million vertices of smooth boulders.
-// The counters are milliseconds of processor time, a software driver's threads included: they mean
-// the same on a busy machine.
+// Timing of a picture at 1280x720, in total and by pass: a heap of broken bricks, the falling
+// house, and smooth boulders with a million vertices in all.
+//
+// The counters are milliseconds of processor time, with the threads of a software driver, so that
+// they can be compared on a busy machine.
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -21,7 +22,7 @@ namespace {
 
 using namespace sunder;
 
-/// A random convex of about `size_m`, half of whose faces are broken ones.
+/// Returns a random convex of about `size_m`; every second face is a fracture surface.
 std::shared_ptr<const Mesh> make_chunk(double size_m, Random& random) {
   std::vector<Vec3> points;
   for (int i = 0; i < 12; ++i) points.push_back(0.5 * size_m * random.direction());
@@ -56,7 +57,7 @@ Frame make_heap(int pieces) {
   return frame;
 }
 
-/// A bumpy ball of `rows` x `rows` vertices, every one shared by the triangles around it.
+/// Returns a bumpy ball of `rows` x `rows` vertices that triangles share.
 std::shared_ptr<const Mesh> make_boulder(std::uint32_t rows, double radius_m) {
   auto mesh = std::make_shared<Mesh>();
   const auto at = [&](double row, double column) {
@@ -103,8 +104,7 @@ Frame make_boulders(int side, std::uint32_t rows) {
   return frame;
 }
 
-/// Timed is the whole picture as a film draws it; the passes are timed by pictures of their own, as
-/// that waits for each pass.
+/// Times whole pictures, then passes in further pictures, because timing a pass waits for its end.
 void draw(benchmark::State& state, const Frame& frame) {
   std::size_t vertices = 0;
   for (const Instance& instance : frame.instances) {
@@ -113,7 +113,7 @@ void draw(benchmark::State& state, const Frame& frame) {
   state.counters["instances"] = static_cast<double>(frame.instances.size());
   state.counters["vertices"] = static_cast<double>(vertices);
   render::Renderer renderer(render::RenderOptions{});
-  renderer.draw(frame);  // compiles shaders, uploads meshes
+  renderer.draw(frame);  // compiles shaders and uploads meshes
   for (auto _ : state) benchmark::DoNotOptimize(renderer.draw(frame));
 
   constexpr int kPictures = 5;

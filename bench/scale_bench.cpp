@@ -1,9 +1,9 @@
-// What a frame costs from a thousand convexes to a hundred thousand, by stage, and what the machine
-// would allow: the tables of docs/scale.md.
+// Timing of a frame by stage, from 1,000 to 100,000 convexes, and memory bandwidth and clock of the
+// machine: the tables of docs/scale.md.
 //
 //   build/scale_bench [--most N] [--threads N] [--only rubble|solid|machine]
 //
-// Every run is a process of its own, so its peak memory is its own. Read first: run().
+// Each run is a process of its own, so that its peak memory can be measured. Begin at run().
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,18 +26,18 @@
 namespace sunder::bench {
 namespace {
 
-/// Frames that a run times, after some that do not count.
+/// Number of untimed and of timed frames of a run.
 constexpr int kWarmUp = 15, kTimed = 8;
 
-/// What a run hands to its parent.
+/// Result that a run sends to its parent process.
 struct Costs {
-  double stage_ms[kStages] = {};  ///< Of the processor, a frame.
+  double stage_ms[kStages] = {};  ///< Mean processor time per frame.
   double wall_ms = 0, worst_ms = 0;
   Counts counts;
-  double resident_MB = 0;  ///< At its peak.
+  double resident_MB = 0;  ///< Peak resident memory.
 };
 
-/// Edges of a block of about so many unit cells.
+/// Edges of a block of at least `count` unit cells.
 struct Block {
   std::size_t x = 1, y = 1, z = 1;
   explicit Block(std::size_t count) {
@@ -51,9 +51,9 @@ struct Block {
 constexpr const char* kHead =
     "[scene]\ndescription = \"x\"\n[limits]\nbodies = 200000\ndebris = 0\ndust = 0\n";
 
-/// Loose boxes in layers, each shifted against the one below: all of it touches and is awake.
+/// Returns a scene of loose boxes in shifted layers, all of which are in contact and awake.
 std::string rubble(std::size_t count) {
-  constexpr std::size_t kMostCopies = 20000;  // of a solid
+  constexpr std::size_t kMostCopies = 20000;  // per solid
   const Block block(count);
   const auto row = [](std::size_t n, const std::string& step) {
     return "{ count = " + std::to_string(n) + ", " + step + " }";
@@ -72,7 +72,7 @@ std::string rubble(std::size_t count) {
   return text;
 }
 
-/// One solid of so many convexes, hit while it is timed.
+/// Returns a scene of one solid of at least `count` convexes that is hit during the timed frames.
 std::string solid(std::size_t count) {
   const Block block(count);
   const auto size = [](std::size_t n) { return std::to_string(0.5 * static_cast<double>(n)); };
@@ -106,8 +106,8 @@ Costs run(const std::string& text, int threads) {
   return costs;
 }
 
-/// In a child; none if it failed.
-bool run_apart(const std::string& text, int threads, Costs& costs) {
+/// Calls run() in a child process. Returns false if the child failed.
+bool run_in_child(const std::string& text, int threads, Costs& costs) {
   int ends[2];
   if (pipe(ends) != 0) return false;
   const pid_t child = fork();
@@ -134,7 +134,7 @@ void table(const char* name, std::string (*scene)(std::size_t), std::size_t most
        count = count % 3 == 1 ? 3 * count : count / 3 * 10) {
     for (int t = 1; t <= threads; t *= 2) {
       Costs costs;
-      if (!run_apart(scene(count), t, costs)) {
+      if (!run_in_child(scene(count), t, costs)) {
         std::printf("| %zu | %d | failed |\n", count, t);
         continue;
       }
@@ -149,8 +149,8 @@ void table(const char* name, std::string (*scene)(std::size_t), std::size_t most
   }
 }
 
-/// a = b + 3 c over arrays that no cache holds (McCalpin's triad), by so many threads: GB/s if each
-/// had a processor to itself, the best of some.
+/// Returns the memory bandwidth of McCalpin's triad, a = b + 3 c, over arrays larger than the
+/// caches: GB/s of `threads` threads if each had a processor to itself, the best of ten rounds.
 double triad_GB_s(int threads) {
   constexpr std::size_t kCount = std::size_t{1} << 23;
   std::vector<double> a(kCount), b(kCount, 1), c(kCount, 2);
@@ -166,7 +166,7 @@ double triad_GB_s(int threads) {
   return a[kCount / 2] == 7 ? best : 0;
 }
 
-/// Additions that wait for each other, a nanosecond each a GHz: the clock that is left to us.
+/// Returns the effective clock rate from a chain of dependent additions, one per cycle.
 double clock_GHz() {
   double best = 0;
   for (int round = 0; round < 5; ++round) {
@@ -206,5 +206,5 @@ int main(int argc, char** argv) {
   const auto wanted = [&](const char* name) { return only.empty() || only == name; };
   if (wanted("rubble")) table("rubble", rubble, static_cast<std::size_t>(most), threads);
   if (wanted("solid")) table("one solid, hit", solid, static_cast<std::size_t>(most), threads);
-  if (wanted("machine")) machine(threads);  // last: what has threads of its own cannot fork
+  if (wanted("machine")) machine(threads);  // last: a process with threads cannot fork
 }

@@ -1,6 +1,5 @@
-// The rigid solver on the scenes that engines are compared by: rubble, wall, pyramid, stack, and
-// thousands of touching cubes that appear at once. Beside each figure stands what other engines
-// were measured at (one thread, a like machine).
+// The rigid solver on common benchmark scenes: rubble, wall, pyramid, stack, and thousands of
+// touching cubes. Each row is followed by results of other engines (one thread, similar machine).
 //
 //   solver_bench [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N] [--rate HZ]
 //                [--colors N] [--lanes N] [--seed N] [--sleep]
@@ -36,9 +35,9 @@ struct Options {
   int sweeps = 1;
   int colors = 64;
   int lanes = 0;
-  int frames = 0;  ///< 0: the scene's own.
+  int frames = 0;  ///< 0: number of frames of the scene.
   double rate_Hz = 60;
-  int seed = 1;  ///< Of rubble.
+  int seed = 1;  ///< Seed of the rubble.
   bool sleep = false;
 };
 
@@ -123,17 +122,17 @@ void settle(const char* name, const MakeSet& make_set, int frames, const Options
   print(name, run, peers);
 }
 
-/// Ten seconds of standing, then a ball of 500 kg at 20 m/s.
+/// Simulates a standing wall for ten seconds, then a ball of 500 kg that hits it at 20 m/s.
 void shoot_wall(const Options& options) {
   if (options.scene != "all" && options.scene != "wall") return;
   Run run = begin(wall(50, 20), options);
-  const BodyId high = run.ids[run.ids.size() - 25];  // middle of the top row
-  const double top = run.physics->state(high).X_WB.position.y();
+  const BodyId top_brick = run.ids[run.ids.size() - 25];  // middle brick of the top course
+  const double top = run.physics->state(top_brick).X_WB.position.y();
   advance(run, 600, options);
-  const double sink = top - run.physics->state(high).X_WB.position.y();
+  const double sink_m = top - run.physics->state(top_brick).X_WB.position.y();
   print("wall", run,
         "Box3D stands, sinks 59 mm, 2.1 ms; PhysX TGS 32 4.5 ms, 1.1 mm; Bullet, ODE, Jolt fall");
-  std::printf("%15stop sinks %.2f mm\n", "", 1e3 * sink);
+  std::printf("%15stop sinks %.2f mm\n", "", 1e3 * sink_m);
   Set shot;
   shot.ball(500, 0.4, Vec3(10, 2, -3), Vec3(0, 0, 20));
   run.physics->replace({}, shot.bodies);

@@ -1,9 +1,9 @@
-// How long it takes to know what own weight and slow load do to a compound.
+// Timing of the stress solve of a compound under self-weight and slow loads.
 //
 //   build/stress_bench
 //
-// The mark: 8,000 convexes to a residual of 1e-3 in 10 ms on two cores when the load has changed.
-// What did not change costs nothing: the world does not ask (tests/engine/load_test.cpp).
+// Target: 8,000 convexes to a residual of 1e-3 in 10 ms on two cores after a change of load.
+// Without a change of load the world does not solve (tests/engine/load_test.cpp).
 #include <cmath>
 #include <vector>
 
@@ -25,7 +25,7 @@ StressSystem system_of(const Compound& compound) {
   return StressSystem(compound, std::move(geometry), std::vector<Material>(1));
 }
 
-/// The block that a benchmark's arguments ask for; sets the threads.
+/// Sets the number of threads and returns the block of convexes that the arguments ask for.
 Compound block_of(const benchmark::State& state) {
   set_threads(static_cast<int>(state.range(0)));
   const auto side = static_cast<int>(state.range(1));
@@ -37,7 +37,7 @@ void show(benchmark::State& state, const SolveResult& result) {
   state.counters["residual"] = result.residual;
 }
 
-/// Threads, then convexes along an edge of the block.
+/// Sets the arguments: number of threads, then convexes along an edge of the block.
 void arguments(benchmark::internal::Benchmark* bench) {
   for (const int side : {10, 20}) {
     for (const int count : {1, 2}) bench->Args({count, side});
@@ -56,7 +56,7 @@ void Stress_from_nothing(benchmark::State& state) {
 }
 BENCHMARK(Stress_from_nothing)->Apply(arguments);
 
-/// A tenth of its weight comes to stand on a corner of the roof.
+/// Solves again after a load of a tenth of the compound's weight is put on a corner of the roof.
 void Stress_when_the_load_has_changed(benchmark::State& state) {
   const Compound compound = block_of(state);
   const StressSystem system = system_of(compound);
@@ -75,9 +75,9 @@ void Stress_when_the_load_has_changed(benchmark::State& state) {
 }
 BENCHMARK(Stress_when_the_load_has_changed)->Apply(arguments);
 
-/// So many blows in one step, at places all over it.
+/// Evaluates ten impact loads in one step, at points all over the block.
 void Ten_blows(benchmark::State& state) {
-  constexpr std::uint32_t kBlows = 10;
+  constexpr std::uint32_t kImpacts = 10;
   const Structure structure(block_of(state));
   const Compound compound = structure.compound();
   std::vector<Material> materials(1);
@@ -88,27 +88,27 @@ void Ten_blows(benchmark::State& state) {
   load.most_work = std::uint64_t{1} << 40;
   load.memory = break_by_stress(structure, load).memory;
   std::vector<AppliedForce> impulses;
-  for (std::uint32_t i = 1; i <= kBlows; ++i) {
-    const auto at = static_cast<std::uint32_t>(compound.convexes.size() * i / kBlows - 1);
+  for (std::uint32_t i = 1; i <= kImpacts; ++i) {
+    const auto at = static_cast<std::uint32_t>(compound.convexes.size() * i / kImpacts - 1);
     impulses.push_back(
         {ConvexSlot(at), Vec3(std::cos(i), 0, std::sin(i)), compound.convexes[at]->solid.centroid});
   }
-  std::vector<ImpulsiveLoad> blows;
+  std::vector<ImpulsiveLoad> impacts;
   for (const AppliedForce& impulse : impulses)
-    blows.push_back({std::span(&impulse, 1), 1, impulse.point_R, 0});
+    impacts.push_back({std::span(&impulse, 1), 1, impulse.point_R, 0});
   double worst = 0;
   for (auto _ : state) {
     LoadCase one = load;
-    for (const ImpulsiveLoad& blow : blows) {
-      one.blow = blow;
-      worst = break_by_stress(structure, one).blow.worst;
+    for (const ImpulsiveLoad& impact : impacts) {
+      one.impulsive_load = impact;
+      worst = break_by_stress(structure, one).impulsive_stress.worst;
     }
   }
   state.counters["worst"] = worst;
 }
 BENCHMARK(Ten_blows)->Apply(arguments);
 
-/// All that follows a break: the bonds' shapes and the levels made anew.
+/// Makes a new stress system, as after a break: geometry of bonds and multigrid levels.
 void Set_up_after_a_break(benchmark::State& state) {
   const Compound compound = block_of(state);
   for (auto _ : state) benchmark::DoNotOptimize(system_of(compound));

@@ -1,13 +1,14 @@
-// What one sweep over the contacts costs, beside what it costs to stream the same bytes through the
-// processor once, read and written; and what it costs to give contacts their colours.
+// Timing of one sweep over the contacts, compared with reading and writing the same bytes once, and
+// timing of contact colouring. Begin at run().
 //
 //   sweep_bench [--sides A,B,...] [--colors N] [--growth]
 //
-// With --growth: how the cost of a point grows with the number of bodies, in a sweep and in a step.
+// With --growth, the program prints the cost per contact point of a sweep and of a step as the
+// number of bodies grows.
 //
-// A sweep is timed as the difference between steps with few and with many of them, each the best of
-// several, so that the machine may be busy. Bytes are those that a sweep touches: the front of
-// every block, and of every body its velocity and position.
+// A sweep is timed as the difference between steps with few and with many sweeps, each the best of
+// several, so that other load on the machine matters little. The bytes of a sweep are the front of
+// every constraint block, and velocity and position of every body.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -33,10 +34,11 @@ using bench::Pile;
 using bench::touching_cubes;
 
 constexpr double kDt_s = 1.0 / 60;
-constexpr double kRestDt_s = 1.0 / 480;  // in which columns of 46 cubes stand
+constexpr double kRestDt_s = 1.0 / 480;  // short enough for columns of 46 cubes to stand
 constexpr int kMoreSweeps = 10, kTries = 7, kSteps = 6, kStepSubsteps = 4;
 
-/// Of this thread where it works alone: a busy machine changes that least.
+/// Returns the thread's processor time, which other load changes least; wall time with more
+/// threads.
 double now_ms() {
   if (threads() > 1) {
     const auto t = std::chrono::steady_clock::now().time_since_epoch();
@@ -70,7 +72,8 @@ struct Timed {
   }
 };
 
-/// Milliseconds to read and write so many bytes once, as often as a sweep comes back to them.
+/// Returns the milliseconds to read and write `bytes` once, the best of several passes over an
+/// array that is reused, as a sweep reuses its contacts.
 double stream_ms(std::size_t bytes) {
   std::vector<float> data(bytes / sizeof(float), 1.f);
   float* const first = data.data();
@@ -103,13 +106,13 @@ double bytes_of(const SolveReport& report, std::size_t bodies, int lanes) {
                       : bytes_of<1>(report, bodies);
 }
 
-/// Of one sweep, and what was swept.
-struct Swept {
+/// Time and bytes of one sweep, and the report of the step.
+struct SweepTime {
   double ms = 0, bytes = 0;
   SolveReport report;
 };
 
-Swept time_sweep(const Pile& set, int colors, int lanes) {
+SweepTime time_sweep(const Pile& set, int colors, int lanes) {
   Timed few(set, colors, lanes, 1), many(set, colors, lanes, 1 + kMoreSweeps);
   for (int i = 0; i < kTries; ++i) few.solve(), many.solve();
   return {(many.best_ms - few.best_ms) / (2 * kMoreSweeps),
@@ -118,7 +121,7 @@ Swept time_sweep(const Pile& set, int colors, int lanes) {
 
 void sweep(const Pile& set, int colors, int lanes, int thread_count) {
   set_threads(thread_count);
-  const Swept swept = time_sweep(set, colors, lanes);
+  const SweepTime swept = time_sweep(set, colors, lanes);
   const double stream = stream_ms(static_cast<std::size_t>(swept.bytes));
   const double points = swept.report.contact_points;
   std::printf("%8zu %9.0f %6d %8d %9.3f %9.2f %10.2f %12.2f %7.1f %9.0f\n", set.bodies.size() - 1,
@@ -127,10 +130,10 @@ void sweep(const Pile& set, int colors, int lanes, int thread_count) {
   std::fflush(stdout);
 }
 
-/// Nanoseconds a point of a step of cubes that rest, the best of several, by what a step does.
+/// Nanoseconds per contact point of the parts of a step, the best of several, for resting cubes.
 struct StepCost {
   double collide_ns = 1e30, solve_ns = 1e30;
-  double points = 0;  ///< In the last.
+  double points = 0;  ///< Contact points of the last step.
 };
 
 StepCost time_steps(const Pile& set) {
@@ -150,7 +153,7 @@ StepCost time_steps(const Pile& set) {
   return cost;
 }
 
-/// What a contact point costs among more and more bodies, beside what its bytes do.
+/// Prints the cost per contact point as the number of bodies grows.
 int growth(const std::vector<int>& sides) {
   set_threads(1);
   const int lanes = lanes_in_use(0);
@@ -159,7 +162,7 @@ int growth(const std::vector<int>& sides) {
   std::printf("  bodies    points  megabytes   sweep  stream  times    step  collide   solve\n");
   for (const int side : sides) {
     const Pile set = touching_cubes(side);
-    const Swept swept = time_sweep(set, kMaxColors, lanes);
+    const SweepTime swept = time_sweep(set, kMaxColors, lanes);
     const double stream = stream_ms(static_cast<std::size_t>(swept.bytes));
     const double ns = 1e6 / swept.report.contact_points;
     const StepCost step = time_steps(set);
@@ -171,7 +174,7 @@ int growth(const std::vector<int>& sides) {
   return 0;
 }
 
-/// Contacts of a grid of bodies, each touching its neighbours; some go and come back.
+/// Times colouring of the contacts of a grid of bodies, and removal and insertion of some of them.
 void recolor() {
   constexpr std::uint32_t kSide = 26, kGone = 5000;
   Bodies bodies;

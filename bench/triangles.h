@@ -1,5 +1,5 @@
-// Meshes cut again and again, as polygons and as triangles: the paper's figure 9. A cutter that
-// triangulates lives here and in tests alone.
+// Repeated cuts of a mesh with polygonal faces and with triangulated faces, as in the paper's
+// figure 9. Only benchmarks and tests cut triangulated meshes.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace sunder::bench {
 
-/// The same surface, every face of it in triangles.
+/// Returns the mesh with every face triangulated.
 inline PolygonMesh triangulated(const PolygonMesh& mesh) {
   PolygonMesh result;
   result.vertices = mesh.vertices;
@@ -34,7 +34,7 @@ inline PolygonMesh triangulated(const PolygonMesh& mesh) {
   return result;
 }
 
-/// All pieces cut by a plane; where `in_triangles`, what comes out is triangulated for good.
+/// Cuts all pieces by a plane. If `in_triangles`, triangulates the faces of the parts.
 inline std::vector<PolygonMesh> cut_all(const std::vector<PolygonMesh>& pieces, const Plane& plane,
                                         PlaneId id, bool in_triangles) {
   std::vector<PolygonMesh> result;
@@ -52,7 +52,7 @@ inline std::vector<PolygonMesh> cut_all(const std::vector<PolygonMesh>& pieces, 
   return result;
 }
 
-/// Planes through points near the middle of a box, every which way.
+/// Returns planes in random directions through points near the centre of a box.
 inline std::vector<Plane> planes_through(const Box& box, std::size_t count) {
   Random random(9);
   std::vector<Plane> planes;
@@ -77,10 +77,10 @@ inline double volume_m3(const std::vector<PolygonMesh>& pieces) {
   return volume;
 }
 
-/// How many of the triangles that the pieces are drawn with are ill-shaped: their height is less
-/// than a hundredth of their longest side.
+/// Number of ill-shaped triangles of the faces: less than a hundredth as high as their longest
+/// side.
 inline std::size_t ill_shaped(const std::vector<PolygonMesh>& pieces) {
-  constexpr double kFlat = 0.01;
+  constexpr double kMaxFlatness = 0.01;
   std::size_t count = 0;
   for (const PolygonMesh& piece : pieces) {
     for (std::size_t f = 0; f < piece.faces.size(); ++f) {
@@ -88,7 +88,7 @@ inline std::size_t ill_shaped(const std::vector<PolygonMesh>& pieces) {
         const auto at = [&](std::size_t k) { return piece.vertices[piece.corners[t[k]]]; };
         const Vec3 a = at(1) - at(0), b = at(2) - at(1), c = at(0) - at(2);
         const double longest = std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
-        count += a.cross(b).norm() < kFlat * longest;
+        count += a.cross(b).norm() < kMaxFlatness * longest;
       }
     }
   }

@@ -1,5 +1,5 @@
-// Figure 9: what is left of a hexagon and of a torus after repeated cuts, by polygons and by
-// triangles. A table; nothing is timed but the last cut of all.
+// Faces, ill-shaped triangles and time of repeated cuts of a prism and a torus with polygonal and
+// with triangulated faces, as in the paper's figure 9. Prints a table.
 #include <cstdio>
 #include <string>
 

@@ -1,4 +1,4 @@
-// Reference behaviour at every preset: docs/truths.md is what --markdown prints.
+// Prints reference behaviour at every preset; docs/truths.md has the output of --markdown.
 #include "bench/truths/table.h"
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
-// Decomposition of real meshes: how tight the hulls are, then what it costs. SUNDER_MESHES names
-// the folder with the set good/; without it there is nothing to measure.
+// Convex decomposition of real meshes: first tables of the tightness of the hulls, then times.
+// SUNDER_MESHES names the folder with the set good/; without the meshes nothing is measured.
 #include <cstdio>
 #include <filesystem>
 #include <map>

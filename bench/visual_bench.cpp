@@ -1,10 +1,10 @@
-// How long real meshes take to break.
+// Timing of breaks of real meshes.
 //
 //   SUNDER_MESHES=../shared/meshes build/visual_bench
 //
-// The marks: dragon_80k in 12 nodes hit by 50 cells in a quarter of its size 10 ms; bunny_12k whole
-// by 20 cells 8 ms, by 100 cells 25 ms. Time is that of both cores; CPU that of the first. What is
-// drawn of the pieces is made by the step afterwards, and measured on its own.
+// Targets: dragon_80k in 12 nodes, hit by 50 cells in a quarter of its size, 10 ms; whole bunny_12k
+// by 20 cells 8 ms, by 100 cells 25 ms. Time is wall time; CPU is the processor time of all
+// threads. Meshes to draw are made later in a step, and are timed separately.
 #include <limits>
 
 #include <benchmark/benchmark.h>
@@ -27,7 +27,7 @@ Compound decomposed(const std::string& name, std::uint32_t nodes) {
   return decompose(repair_mesh(read_mesh(bench::real_mesh(name)), name), options).compound;
 }
 
-/// One event on a structure made ready, with a pattern made ready, as in a running simulation.
+/// Times one break event on a prepared structure with a prepared pattern, as in a simulation.
 void run_event(benchmark::State& state, const Compound& solid, int cells, double radius_part) {
   set_threads(static_cast<int>(state.range(0)));
   const Structure structure(solid);
@@ -35,7 +35,7 @@ void run_event(benchmark::State& state, const Compound& solid, int cells, double
   const double size = box.extent().maxCoeff();
   const bool whole = radius_part == std::numeric_limits<double>::infinity();
   const Pattern pattern = voronoi_pattern(cells, whole ? 1 : 2, whole, 1);
-  // On the surface: where a ray from the right of the middle meets the solid.
+  // The centre is the vertex of the surface nearest to the middle of the right side of the bounds.
   ImpactSphere sphere{box.center(), radius_part * size};
   double unit = sphere.radius_m;
   if (whole) {
@@ -86,7 +86,7 @@ BENCHMARK(Bunny_whole_by_cells)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
-/// Triangles to draw of a bunny in 100 pieces.
+/// Times the making of meshes to draw for a bunny in 100 pieces.
 void Bunny_in_100_cells_drawn(benchmark::State& state) {
   set_threads(1);
   const Compound solid = decomposed("bunny_12k.off", 1);

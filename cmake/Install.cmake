@@ -1,5 +1,6 @@
-# find_package(sunder): the target sunder::sunder, for users of #include <sunder/sunder.h>. The rooms
-# are installed as what it is linked from; these are all the headers that are.
+# Installs the package for find_package(sunder), with the target sunder::sunder, for users of
+# #include <sunder/sunder.h>. The target links the libraries of the modules. Only the headers listed
+# here are installed.
 
 include(CMakePackageConfigHelpers)
 
@@ -25,7 +26,8 @@ set(public_headers
   scenes/make_simulation.h
   scenes/sunder.h)
 
-# Users have folders called engine/ too: ours lie in one folder and name each other by it.
+# Users may have folders named engine/ too, so the headers are installed in one folder, sunder/, and
+# include each other from there.
 set(public_folder ${PROJECT_BINARY_DIR}/include/sunder)
 foreach(header ${public_headers})
   cmake_path(GET header FILENAME name)

@@ -1,4 +1,5 @@
-# How every target of the project is compiled and installed.
+# Options with which all targets of the project are compiled and installed, and functions that add
+# targets.
 
 include(GNUInstallDirs)
 
@@ -18,7 +19,7 @@ if(SUNDER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# An older processor stops with "illegal instruction" on what x86-64-v3 is compiled to.
+# An older processor stops x86-64-v3 code with "illegal instruction".
 message(STATUS "Instruction set SUNDER_ARCH: ${SUNDER_ARCH}")
 if(SUNDER_ARCH STREQUAL "x86-64-v3" AND EXISTS /proc/cpuinfo)
   file(STRINGS /proc/cpuinfo cpu_flags REGEX "^flags.* avx2 .*" LIMIT_COUNT 1)
@@ -28,13 +29,14 @@ if(SUNDER_ARCH STREQUAL "x86-64-v3" AND EXISTS /proc/cpuinfo)
   endif()
 endif()
 
-# Same bits everywhere: no contraction, no fast math, and no explicit FMA from Eigen's own kernels
-# (docs/decisions/001-determinism.md). Users of the library get these too: it has inline functions.
+# The same bits on every processor: no contraction, no fast math, and no explicit FMA from Eigen's
+# own kernels (docs/decisions/001-determinism.md). Users of the library get these options too, because
+# its headers have inline functions.
 add_library(sunder_options INTERFACE)
 target_compile_features(sunder_options INTERFACE cxx_std_20)
 target_compile_definitions(sunder_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
 target_compile_options(sunder_options INTERFACE -ffp-contract=off)
-# Failed checks name their file from the root on: nothing that is installed knows where it was built.
+# Failed checks name their file from the root on: no installed file has the path of the build.
 target_compile_options(sunder_options INTERFACE
   $<BUILD_INTERFACE:-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=>)
 if(SUNDER_ARCH)
@@ -42,20 +44,21 @@ if(SUNDER_ARCH)
 endif()
 if(SUNDER_STRICT)
   set(shadow -Wshadow)
-  if(SUNDER_QUICK_BUILD)  # the sources of a batch see each other's file-local names
+  if(SUNDER_QUICK_BUILD)  # sources of a batch share their file-local names
     set(shadow -Wshadow=local -Wno-subobject-linkage)
   endif()
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic
     ${shadow} -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual
     -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror>)
-  # GCC 12 sees overlaps and overruns in std::string's operator+ that are not there (GCC bug 105651),
-  # and warns that wide vectors are passed otherwise without AVX; they stay inside the solver.
+  # GCC 12 warns of overlaps and overruns in std::string's operator+ that do not exist (GCC bug
+  # 105651), and that wide vectors are passed differently without AVX; only the solver passes them,
+  # to itself.
   set(gnu -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized -Wno-psabi)
   target_compile_options(sunder_options INTERFACE
     $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:${gnu}>>)
 endif()
 if(SUNDER_SANITIZE)
-  # Checks of pointers cost a third of the compile time, and a null one stops the program anyhow.
+  # Checks of pointers take a third of the compile time; a null pointer stops the program anyway.
   target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-fsanitize=${SUNDER_SANITIZE}
     -fno-sanitize=null,alignment,object-size,vptr -fno-sanitize-recover=all
     -fno-omit-frame-pointer>)
@@ -64,8 +67,7 @@ endif()
 install(TARGETS sunder_options EXPORT sunderTargets)
 set_target_properties(sunder_options PROPERTIES EXPORT_NAME options)
 
-# Headers parsed once for tests: a family of targets with the same flags, where SUNDER_QUICK_BUILD
-# asks for it.
+# Precompiles headers once for tests with the same flags, if SUNDER_QUICK_BUILD is on.
 function(sunder_precompile target first)
   if(NOT SUNDER_QUICK_BUILD)
     return()
@@ -79,15 +81,15 @@ function(sunder_precompile target first)
   endif()
 endfunction()
 
-# Several sources a compiler run, where SUNDER_QUICK_BUILD asks for it: their headers are parsed once.
-# Tests whose local names clash with those of others have a namespace of their own, named as the file.
+# Compiles eight sources in one compiler run if SUNDER_QUICK_BUILD is on, so that their headers are
+# parsed once. Tests whose local names conflict with others have a namespace named after their file.
 function(sunder_unity target)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${SUNDER_QUICK_BUILD} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
-# Files as strings: sunder_embed(OUT HEADER NAMESPACE FILES...) writes OUT, which defines what HEADER
-# declares in NAMESPACE; materials.toml becomes materials_toml.
+# Embeds files as strings: sunder_embed(OUT HEADER NAMESPACE FILES...) writes OUT, which defines the
+# strings that HEADER declares in NAMESPACE; materials.toml becomes materials_toml.
 function(sunder_embed out header namespace)
   set(code "#include \"${header}\"\nnamespace ${namespace} {\n")
   foreach(file ${ARGN})
@@ -101,7 +103,7 @@ function(sunder_embed out header namespace)
   file(CONFIGURE OUTPUT ${out} CONTENT "@code@" @ONLY)
 endfunction()
 
-# One library a room: sunder_room(name SOURCES ... [LINK ...] [PRIVATE_LINK ...])
+# Adds the library of a module: sunder_room(name SOURCES ... [LINK ...] [PRIVATE_LINK ...])
 function(sunder_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(sunder_${name} STATIC ${ROOM_SOURCES})

@@ -1,7 +1,8 @@
-# What demo.sh and test.sh share: the processor, the packages, the build. Sourced from the root.
+# Functions of demo.sh and test.sh that check the processor, install packages and configure the
+# build. Sourced from the root of the project.
 # shellcheck shell=bash
 
-# Debian's names. `tools` build and run the program; `checks` test and time it.
+# Debian packages: `tools` build and run the program; `checks` test and time it.
 tools=(g++ cmake ninja-build ccache pkg-config
   libeigen3-dev libstb-dev libzstd-dev libxxhash-dev nlohmann-json3-dev
   libtomlplusplus-dev libcli11-dev libbox2d-dev libegl-dev libgl-dev
@@ -25,7 +26,7 @@ check_processor() {
   done
 }
 
-# Prints those of the packages that are not installed.
+# Prints the packages that are not installed.
 missing() {
   local installed
   installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null |
@@ -33,7 +34,7 @@ missing() {
   comm -23 <(printf '%s\n' "$@" | sort -u) <(sort -u <<<"$installed")
 }
 
-# Installs what is missing of the packages, and touches nothing otherwise.
+# Installs the packages that are missing, and does nothing if all are installed.
 install_packages() {
   local wanted run=()
   mapfile -t wanted < <(missing "$@")
@@ -53,12 +54,13 @@ install_packages() {
     fail "apt-get could not install: ${wanted[*]}"
 }
 
-# As install_packages, but only a warning where that fails.
+# Installs packages like install_packages, but only warns if that fails.
 install_optional() {
-  (install_packages "$@") || echo "warning: going on without $*: what needs them is skipped"
+  (install_packages "$@") ||
+    echo "warning: continuing without $*: tests and benchmarks that need them are skipped"
 }
 
-# Everything up to a configured build in build/.
+# Checks the processor, installs the packages, and configures the build in build/.
 set_up() {
   check_processor
   if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then

@@ -62,7 +62,7 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
   return edit;
 }
 
-BreakPlan as_pieces(Structure& structure, BreakEdit edit) {
+BreakPlan apply_edit(Structure& structure, BreakEdit edit) {
   structure.apply(edit);
   BreakPlan plan = std::move(edit.loose);
   const bool is_gone = structure.empty();
@@ -91,7 +91,7 @@ BreakPlan fracture(const Compound& compound, const Pattern& pattern, const Place
   }
   Structure structure(compound);
   BreakEdit edit = break_structure(structure, pattern, placement, sphere, event, fit);
-  if (edit.changed) return as_pieces(structure, std::move(edit));
+  if (edit.changed) return apply_edit(structure, std::move(edit));
   BreakPlan plan = unbroken(compound);
   plan.failed = edit.loose.failed;
   plan.failed_m3 = edit.loose.failed_m3;

@@ -22,7 +22,7 @@ BreakEdit break_structure(const Structure& structure, const Pattern& pattern,
                           std::uint64_t event, const Fit& fit = {});
 
 /// Applies an edit and returns all that is there then as pieces: the remaining structure first.
-BreakPlan as_pieces(Structure& structure, BreakEdit edit);
+BreakPlan apply_edit(Structure& structure, BreakEdit edit);
 
 /// Breaks a compound and returns its pieces, the remaining compound first; returns the compound
 /// unchanged if nothing came off. A compound given in may have several islands: each of them breaks

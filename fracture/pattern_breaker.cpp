@@ -9,10 +9,10 @@
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/clip.h"
 #include "fracture/fracture.h"
-#include "fracture/pattern/detail.h"
+#include "fracture/pattern/cell_limit.h"
 #include "fracture/plug.h"
 #include "fracture/rejoin.h"
-#include "fracture/stress/parting.h"
+#include "fracture/stress/separate_islands.h"
 #include "fracture/stress/stress_breaks.h"
 
 namespace sunder::fracture {
@@ -156,7 +156,7 @@ class PatternBreaker final : public Breaker {
       command.radius_m = stronger.impact_radius_m;
     }
     const double thickness_m = is_thin(convex) ? mean_thickness_m(convex) : 0;
-    reduce_to_energy(material, hit, command.radius_m, thickness_m, command.pattern);
+    limit_cells_by_energy(material, hit, command.radius_m, thickness_m, command.pattern);
     for (std::size_t m = 0; m < materials.size(); ++m) {
       if (!materials[m].breakable()) command.unbreakable.emplace_back(m);
     }
@@ -171,7 +171,7 @@ class PatternBreaker final : public Breaker {
     if (command.pattern.kind == PatternSpec::Kind::kNone)
       return command.plug ? separate_plug(structure, command) : BreakEdit{};
     const bool whole = command.radius_m == std::numeric_limits<double>::infinity();
-    const ReadyBreak ready = make_ready(command, whole ? bounds(structure) : Box(), library_);
+    const PreparedBreak ready = prepare_break(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
                                      command.event, command.fit);
     if (log_ && edit.loose.failed > 0) {
@@ -203,8 +203,9 @@ double reach(const Box& box, const Vec3& from) {
 
 }  // namespace
 
-ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library) {
-  ReadyBreak ready;
+PreparedBreak prepare_break(const BreakCommand& command, const Box& bounds_R,
+                            PatternLibrary& library) {
+  PreparedBreak ready;
   ready.sphere = {command.X_RP.position, command.radius_m, command.unbreakable,
                   command.smallest_m3};
   const bool whole = ready.sphere.is_infinite();
@@ -220,7 +221,7 @@ ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternL
 
 BreakPlan break_compound(const Compound& compound, const BreakCommand& command) {
   PatternLibrary library;
-  const ReadyBreak ready = make_ready(command, bounds(compound), library);
+  const PreparedBreak ready = prepare_break(command, bounds(compound), library);
   return fracture(compound, *ready.pattern, ready.placement, ready.sphere, command.event,
                   command.fit);
 }

@@ -12,13 +12,14 @@
 namespace sunder::fracture {
 
 /// A command with its pattern, the placement of the pattern and the volume that breaks.
-struct ReadyBreak {
+struct PreparedBreak {
   std::shared_ptr<const Pattern> pattern;
   Placement placement;
   ImpactSphere sphere;
 };
 /// Prepares a command for a compound or structure with the bounding box `bounds_R`.
-ReadyBreak make_ready(const BreakCommand& command, const Box& bounds_R, PatternLibrary& library);
+PreparedBreak prepare_break(const BreakCommand& command, const Box& bounds_R,
+                            PatternLibrary& library);
 
 /// Executes a command on a compound broken once; returns its pieces, the remaining compound first.
 BreakPlan break_compound(const Compound& compound, const BreakCommand& command);

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "fracture/pattern/detail.h"
+#include "fracture/pattern/cell_limit.h"
 
 namespace sunder::fracture {
 namespace {

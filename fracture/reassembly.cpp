@@ -46,7 +46,7 @@ void Reassembly::add_neighbours(std::vector<ConvexPtr>& convexes,
     for (const Link& link : structure_.links(neighbours_[i])) {
       if (!is_touched(link.other) || link.face == last_face) continue;
       last_face = link.face;
-      faces.push_back(known_face(*convexes.back(), i, link.face));
+      faces.push_back(face_in_contact(*convexes.back(), i, link.face));
     }
   }
   const auto same = [](const FaceEntry& x, const FaceEntry& y) {

@@ -237,7 +237,7 @@ class Rejoining {
       std::ranges::sort(of_slot);
       of_slot.erase(std::unique(of_slot.begin(), of_slot.end()), of_slot.end());
       for (const std::uint32_t face : of_slot)
-        faces.push_back(known_face(*convex(slot), next(), face));
+        faces.push_back(face_in_contact(*convex(slot), next(), face));
       slots.push_back(slot);
       convexes.push_back(convex(slot));
     }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails where a source breaks the plan of the house (docs/architecture.md, "Rooms").
+"""Fails if a source violates the order of modules and layers (docs/architecture.md, "Modules").
 
 Usage: check_rooms.py [ROOT]. Read first: the tables, then check_tree().
 """
@@ -7,29 +7,29 @@ import re
 import sys
 from pathlib import Path
 
-ROOMS = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests")
+MODULES = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests")
 
-# The rooms within a room, from the lowest floor up; "" is the room's own folder. A file includes its
-# own folder and those of lower floors: neither what is above, nor what is beside it. A header may
-# lie on a lower floor than its folder.
-FLOORS = {
+# Layers of each module, from the lowest up; "" is the module's own folder. A file may include files
+# of its own folder and of lower layers, but not of higher ones or of another folder of its layer. A
+# header may be in a lower layer than its folder.
+LAYERS = {
     "engine": (("base",), ("geometry",), ("geometry/repair", "geometry/walls"), ("model",), ("model/checks",),
                ("world/actors",), ("world/break", "world/load", "world/act", "world/particles"), ("world",), ("io",),
                ("io/mesh", "io/recording")),
     "fracture": (("pattern",), ("adjacency",), ("cut",), ("stress", "vacd", "check"), ("",)),
-    "solver": (("base",), ("impact", "rigid/tolerances.h"), ("rigid/body",), ("rigid/collide",),
+    "solver": (("base",), ("impact", "rigid/tuning.h"), ("rigid/body",), ("rigid/collide",),
                ("rigid/joint",), ("rigid/contact/kernels",), ("rigid/contact",),
                ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
     "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("app",)),
 }
-FLOOR_OF = {str(Path(room, folder)): floor for room, floors in FLOORS.items()
-            for floor, folders in enumerate(floors) for folder in folders}
+LAYER_OF = {str(Path(module, folder)): layer for module, layers in LAYERS.items()
+            for layer, folders in enumerate(layers) for folder in folders}
 
-ROOM_LIBRARIES = tuple(FLOORS)
+MODULE_LIBRARIES = tuple(LAYERS)
 
-# Room -> the rooms its sources may include. Of scenes, only the library: nothing includes the
-# program, which includes every room.
+# Module -> the modules that its sources may include. The program, scenes/app, may include every
+# module and is included by none.
 MAY_INCLUDE = {
     "engine": {"engine"},
     "fracture": {"engine", "fracture"},
@@ -38,20 +38,20 @@ MAY_INCLUDE = {
     "scenes": {"engine", "fracture", "solver", "render", "scenes"},
     "scenes/app": {"engine", "fracture", "solver", "render", "scenes", "bench"},
     "bench": {"engine", "fracture", "solver", "render", "scenes", "bench"},
-    "tests": set(ROOMS),
+    "tests": set(MODULES),
 }
 
-# Third-party header -> the places it lives in.
+# Third-party header -> the modules or paths that may include it.
 THIRD_PARTY = [
-    (r"Eigen/.*", ROOMS),
+    (r"Eigen/.*", MODULES),
     (r"omp\.h", ("engine/base/parallel", "solver/")),
-    (r"nlohmann/.*", ("engine/io/", "tests/")),  # tests read the JSON as users do
+    (r"nlohmann/.*", ("engine/io/", "tests/")),  # tests parse the JSON of the program
     (r"(zstd.*\.h|xxhash\.h)", ("engine/io/",)),
     (r"box2d/.*", ("solver/planar/",)),
     (r"(EGL|GL|GLES\d|KHR|stb)/.*", ("render/",)),
     (r"toml\+\+/.*", ("scenes/",)),
     (r"CLI/.*", ("scenes/app/",)),
-    (r"sunder/.*", ("tests/consumer/",)),  # the installed library, from outside
+    (r"sunder/.*", ("tests/consumer/",)),  # the installed library
     (r"benchmark/.*", ("bench/",)),
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
     (r"(gtest|gmock|rapidcheck)(/.*|\.h)", ("tests/",)),
@@ -59,104 +59,104 @@ THIRD_PARTY = [
 SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|malloc|sched|signal|spawn|"
                     r"unistd|poll|errno|(imm|x86|arm_neo)intrin|cpuid)\.h")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
-# A file spelled from the root, in a page or a comment.
+# The path of a file from the root, in a page or a comment.
 MENTION = re.compile(r"(?<![\w./*])((?:%s|docs|cmake)/[\w/-]+\.(?:h|cpp|py|md|toml|sh|cmake))\b"
-                     % "|".join(ROOMS))
+                     % "|".join(MODULES))
 PRAGMA_OMP = re.compile(r"^\s*#\s*pragma\s+omp\b", re.MULTILINE)
 
 
 def sources(root):
-    """Paths of the rooms' C++ files, relative to the root, in order."""
-    found = [path for room in ROOMS for path in (root / room).rglob("*")]
+    """Returns the paths of the modules' C++ files, relative to the root, sorted."""
+    found = [path for module in MODULES for path in (root / module).rglob("*")]
     return sorted(path.relative_to(root) for path in found if path.suffix in (".h", ".cpp"))
 
 
 def owner(path):
-    """The row of MAY_INCLUDE that a path belongs to."""
+    """Returns the row of MAY_INCLUDE that a path belongs to."""
     return "scenes/app" if path.parts[:2] == ("scenes", "app") else path.parts[0]
 
 
 def place(path):
-    """The entry of FLOORS that a file belongs to: its own, or its folder's."""
-    return str(path if str(path) in FLOOR_OF else path.parent)
+    """Returns the entry of LAYERS that a file belongs to: its own, or that of its folder."""
+    return str(path if str(path) in LAYER_OF else path.parent)
 
 
 def check_mentions(root, path):
-    """Files that a page or a comment names, which must be there."""
+    """Returns messages about files that a page or a comment names and that do not exist."""
     text = INCLUDE.sub("", (root / path).read_text(encoding="utf-8"))
-    return [f'names "{name}", which is not there'
+    return [f'names "{name}", which does not exist'
             for name in sorted(set(MENTION.findall(text)))
             if not (root / name).exists() and not (root / (name + ".in")).is_file()]
 
 
 def check_own_include(root, path, target):
-    """An include in quotes: spelled from the root, and towards a lower room or floor."""
+    """Returns a message if an include in quotes is not a root path to a lower module or layer."""
     if not (root / target).is_file() and not (root / (target + ".in")).is_file():
         return f'"{target}" is not a path from the root of the project'
     target = Path(target)
     if owner(target) == "scenes/app" and owner(path) != "scenes/app":
-        return f'"{target}": nothing includes the program'
+        return f'"{target}": only the program may include the program'
     if target.parts[0] not in MAY_INCLUDE[owner(path)]:
         return f'{path.parts[0]} may not include {target.parts[0]}: "{target}"'
     mine, other = place(path), place(target)
-    if path.parts[0] == target.parts[0] and mine != other and mine in FLOOR_OF:
-        if FLOOR_OF.get(other, 99) >= FLOOR_OF[mine]:
-            return f'{mine} may not include {other}, which is not below it: "{target}"'
+    if path.parts[0] == target.parts[0] and mine != other and mine in LAYER_OF:
+        if LAYER_OF.get(other, 99) >= LAYER_OF[mine]:
+            return f'{mine} may not include {other}, which is not in a lower layer: "{target}"'
     return None
 
 
 def check_foreign_include(path, header):
-    """An include in angle brackets: the standard library, or a third party in its room."""
+    """Returns a message if an include in angle brackets is neither standard nor allowed here."""
     for pattern, places in THIRD_PARTY:
         if re.fullmatch(pattern, header):
             if str(path).startswith(tuple(places)):
                 return None
-            return f"<{header}> lives only in {', '.join(places)}"
+            return f"<{header}> is allowed only in {', '.join(places)}"
     if SYSTEM.fullmatch(header):
         return None
-    return f"<{header}> belongs to no room: use the C++ header, or name its room in check_rooms.py"
+    return f"<{header}> is of no module: use the C++ header, or add it in check_rooms.py"
 
 
 def check_folders(paths):
-    """Folders that are on no floor, and names that a room has twice."""
+    """Returns messages about folders in no layer, and about names that a module has twice."""
     found = []
     units = sorted({path.with_suffix("") for path in paths})
     for folder in sorted({unit.parent for unit in units}):
-        if folder.parts[0] in FLOORS and str(folder) not in FLOOR_OF:
-            found.append(f"{folder}/: on no floor of FLOORS in check_rooms.py")
+        if folder.parts[0] in LAYERS and str(folder) not in LAYER_OF:
+            found.append(f"{folder}/: in no layer of LAYERS in check_rooms.py")
     first = {}
     for unit in units:
-        room = owner(unit)
-        other = first.setdefault((room, unit.name), unit)
-        if room in ROOM_LIBRARIES and other != unit:
-            found.append(f"{unit}: {room} has a file of that name already: {other}")
+        module = owner(unit)
+        other = first.setdefault((module, unit.name), unit)
+        if module in MODULE_LIBRARIES and other != unit:
+            found.append(f"{unit}: {module} has a file of that name already: {other}")
     return found
 
 
 def check_source(root, path):
-    """The messages about one source file."""
+    """Returns the messages about one source file."""
     text = (root / path).read_text(encoding="utf-8")
     found = []
     for bracket, target in INCLUDE.findall(text):
         found.append(check_foreign_include(path, target) if bracket == "<"
                      else check_own_include(root, path, target))
     if PRAGMA_OMP.search(text) and not str(path).startswith(("engine/base/parallel", "solver/")):
-        found.append("OpenMP pragmas live only in engine/base/parallel and the solver")
+        found.append("OpenMP pragmas are allowed only in engine/base/parallel and the solver")
     lines = text.splitlines() or [""]
     if path.suffix == ".h":
         if not lines[0].startswith("//"):
-            found.append("a header opens with a comment that says what it is for")
+            found.append("a header has to begin with a comment that describes it")
         if "#pragma once" not in text:
             found.append("no #pragma once")
     return [message for message in found if message]
 
 
 def listed(root):
-    """The .cpp paths named in the rooms' CMakeLists.txt, relative to the root; generated ones,
-    which begin with a variable, are not."""
+    """Returns the .cpp paths that the modules' CMakeLists.txt name, relative to the root, without
+    generated ones, which begin with a variable."""
     names = set()
-    for room in ROOMS:
-        for cmake in (root / room).rglob("CMakeLists.txt"):
+    for module in MODULES:
+        for cmake in (root / module).rglob("CMakeLists.txt"):
             text = re.sub(r"#.*", "", cmake.read_text(encoding="utf-8"))
             names |= {(cmake.parent / name).resolve().relative_to(root)
                       for name in re.findall(r"(?<![\w./+}-])[\w.+-][\w./+-]*\.cpp\b", text)}
@@ -164,10 +164,10 @@ def listed(root):
 
 
 def check_tree(root):
-    """Every message about the tree at `root`, as "path: message"."""
+    """Returns all messages about the source tree at `root`, as "path: message"."""
     root = Path(root).resolve()
     strays = [path for path in root.glob("*") if path.suffix in (".h", ".cpp")]
-    messages = [f"{path.name}: no source lives outside a room" for path in strays]
+    messages = [f"{path.name}: a source outside the modules" for path in strays]
     messages += check_folders(sources(root))
     in_cmake = listed(root)
     pages = [path.relative_to(root) for path in [*root.glob("*.md"), *root.glob("docs/**/*.md"),
@@ -185,7 +185,7 @@ def check_tree(root):
 def main():
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent.parent
     messages = check_tree(root)
-    print("\n".join(messages) or f"{len(sources(root.resolve()))} files are where they belong")
+    print("\n".join(messages) or f"{len(sources(root.resolve()))} files, no violations")
     return 1 if messages else 0
 
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Builds small trees with one violation each; check_rooms.py must find exactly that one."""
+"""Makes small source trees with one violation each; check_rooms.py has to find exactly that one."""
 import tempfile
 import unittest
 from pathlib import Path
 
 import check_rooms
 
-HEADER = "// What it is for.\n#pragma once\n"
+HEADER = "// A description.\n#pragma once\n"
 
-# A house where everything is as it should be.
+# A source tree without violations.
 GOOD = {
     "engine/CMakeLists.txt": "sunder_room(engine SOURCES base/a.cpp io/file.cpp)",
     "render/CMakeLists.txt": "sunder_room(render SOURCES ${CMAKE_CURRENT_BINARY_DIR}/made.cpp)",
@@ -32,21 +32,22 @@ GOOD = {
     "tests/t.h": HEADER + '#include <gtest/gtest.h>\n#include "bench/b.h"\n',
 }
 
-# What is put into the good house, and what must be said about it.
+# Violation -> file to add to GOOD, its text, and a part of the expected message.
 BAD = {
-    "a floor includes a higher one":
+    "a layer includes a higher one":
         ("engine/base/b.h", HEADER + '#include "engine/world/w.h"\n', "may not include engine/world"),
-    "a room within a room includes one above it":
-        ("fracture/cut/b.h", HEADER + '#include "fracture/stress/s.h"\n', "not below it"),
-    "a room within a room includes one beside it":
-        ("fracture/vacd/b.h", HEADER + '#include "fracture/stress/s.h"\n', "not below it"),
-    "a folder includes the steps above it":
-        ("fracture/stress/b.h", HEADER + '#include "fracture/f.h"\n', "not below it"),
-    "a header on a lower floor includes its folder":
-        ("solver/rigid/tuning.h", HEADER + '#include "solver/rigid/r.h"\n', "not below it"),
-    "a folder on no floor":
-        ("solver/cloth/b.h", HEADER, "on no floor"),
-    "two files of one name in a room":
+    "a folder includes one of a higher layer":
+        ("fracture/cut/b.h", HEADER + '#include "fracture/stress/s.h"\n', "not in a lower layer"),
+    "a folder includes another one of its layer":
+        ("fracture/vacd/b.h", HEADER + '#include "fracture/stress/s.h"\n', "not in a lower layer"),
+    "a folder includes the module's own folder, which is higher":
+        ("fracture/stress/b.h", HEADER + '#include "fracture/f.h"\n', "not in a lower layer"),
+    "a header in a lower layer includes its folder":
+        ("solver/rigid/tuning.h", HEADER + '#include "solver/rigid/r.h"\n',
+         "not in a lower layer"),
+    "a folder in no layer":
+        ("solver/cloth/b.h", HEADER, "in no layer"),
+    "two files of one name in a module":
         ("solver/rigid/body/r.h", HEADER, "a file of that name already: solver/rigid/body/r"),
     "the engine includes fracture":
         ("engine/world/b.h", HEADER + '#include "fracture/f.h"\n', "engine may not include"),
@@ -61,42 +62,42 @@ BAD = {
     "a benchmark includes a test":
         ("bench/c.h", HEADER + '#include "tests/t.h"\n', "bench may not include tests"),
     "a test includes the program":
-        ("tests/b.h", HEADER + '#include "scenes/app/app.h"\n', "nothing includes the program"),
+        ("tests/b.h", HEADER + '#include "scenes/app/app.h"\n', "only the program may include"),
     "an include is not spelled from the root":
         ("fracture/b.h", HEADER + '#include "f.h"\n', "not a path from the root"),
-    "OpenMP outside its place":
-        ("engine/world/b.h", HEADER + "#include <omp.h>\n", "<omp.h> lives only in"),
-    "an OpenMP pragma outside its place":
+    "OpenMP outside its modules":
+        ("engine/world/b.h", HEADER + "#include <omp.h>\n", "<omp.h> is allowed only in"),
+    "an OpenMP pragma outside its modules":
         ("fracture/b.h", HEADER + "#pragma omp parallel for\n", "OpenMP pragmas"),
     "zstd outside engine/io":
-        ("render/b.h", HEADER + "#include <zstd.h>\n", "<zstd.h> lives only in engine/io"),
+        ("render/b.h", HEADER + "#include <zstd.h>\n", "<zstd.h> is allowed only in engine/io"),
     "JSON in scenes":
-        ("scenes/b.h", HEADER + "#include <nlohmann/json.hpp>\n", "lives only in engine/io"),
+        ("scenes/b.h", HEADER + "#include <nlohmann/json.hpp>\n", "is allowed only in engine/io"),
     "TOML in the engine":
-        ("engine/io/b.h", HEADER + "#include <toml++/toml.h>\n", "lives only in scenes"),
+        ("engine/io/b.h", HEADER + "#include <toml++/toml.h>\n", "is allowed only in scenes"),
     "the command line outside the program":
-        ("scenes/b.h", HEADER + "#include <CLI/CLI.hpp>\n", "lives only in scenes/app"),
+        ("scenes/b.h", HEADER + "#include <CLI/CLI.hpp>\n", "is allowed only in scenes/app"),
     "GL outside render":
-        ("bench/c.h", HEADER + "#include <EGL/egl.h>\n", "lives only in render"),
-    "a library nobody named":
-        ("fracture/b.h", HEADER + "#include <boost/graph.hpp>\n", "belongs to no room"),
-    "a source that CMake does not know":
+        ("bench/c.h", HEADER + "#include <EGL/egl.h>\n", "is allowed only in render"),
+    "a library that is not listed":
+        ("fracture/b.h", HEADER + "#include <boost/graph.hpp>\n", "is of no module"),
+    "a source that CMake does not list":
         ("engine/base/b.cpp", "int b;\n", "listed in no CMakeLists.txt"),
-    "a source outside the rooms":
-        ("main.cpp", "int main() {}\n", "outside a room"),
+    "a source outside the modules":
+        ("main.cpp", "int main() {}\n", "outside the modules"),
     "a header without a guard":
-        ("fracture/b.h", "// What it is for.\n", "no #pragma once"),
-    "a page that names a file that is gone":
-        ("docs/page.md", "See `engine/base/gone.h`.\n", "which is not there"),
-    "a comment that names a file that is gone":
-        ("fracture/b.h", "// As in engine/base/gone.h.\n#pragma once\n", "which is not there"),
-    "a header that does not say what it is for":
-        ("fracture/b.h", "#pragma once\n", "opens with a comment"),
+        ("fracture/b.h", "// A description.\n", "no #pragma once"),
+    "a page that names a file that does not exist":
+        ("docs/page.md", "See `engine/base/gone.h`.\n", "which does not exist"),
+    "a comment that names a file that does not exist":
+        ("fracture/b.h", "// As in engine/base/gone.h.\n#pragma once\n", "which does not exist"),
+    "a header without a description":
+        ("fracture/b.h", "#pragma once\n", "begin with a comment"),
 }
 
 
 def messages_of(files):
-    """What check_rooms says about a tree of these files."""
+    """Returns the messages of check_rooms about a source tree of these files."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             path = Path(folder) / name
@@ -105,13 +106,13 @@ def messages_of(files):
         return check_rooms.check_tree(folder)
 
 
-class CheckRooms(unittest.TestCase):
-    def test_a_good_house_passes(self):
+class CheckLayers(unittest.TestCase):
+    def test_a_tree_without_violations_passes(self):
         self.assertEqual(messages_of(GOOD), [])
 
     def test_every_violation_is_found_alone(self):
-        for what, (path, text, expected) in BAD.items():
-            with self.subTest(what):
+        for name, (path, text, expected) in BAD.items():
+            with self.subTest(name):
                 messages = messages_of(GOOD | {path: text})
                 self.assertEqual(len(messages), 1, messages)
                 self.assertIn(str(Path(path).parent), messages[0])

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Checks exported pieces with nothing of the project: every edge lies in exactly two faces.
+"""Checks exported pieces without code of the project: every edge is in exactly two faces.
 
     check_pieces.py X.glb|DIR [--volume M3] [--within 1e-12]
 
-A piece is a node of a GLB file, or an OBJ file of a folder. Vertices in one place are one vertex, as
-importers that merge vertices see them; no place is rounded. Each edge of a piece has to lie in two
-triangles that run through it in opposite directions, each piece has to enclose a positive volume,
-and the volumes have to sum to --volume. Prints one line of JSON; exit code 1 if a check fails.
+A piece is a node of a GLB file, or an OBJ file of a folder. Vertices with equal coordinates are
+one vertex, as for importers that merge vertices; coordinates are not rounded. Each edge of a piece
+has to be in two triangles that run through it in opposite directions, each piece has to enclose a
+positive volume, and the volumes have to sum to --volume. Prints one line of JSON; exit code 1 if a
+check fails.
 """
 
 import argparse
@@ -47,7 +48,7 @@ def accessor(document, binary, number):
 
 
 def read_glb(path):
-    """Yields the name, vertices and triangles of each node, where its mesh has its origin."""
+    """Yields the name, vertices and triangles of each node, relative to the origin of its mesh."""
     data = path.read_bytes()
     magic, version, size = struct.unpack_from("<4sII", data)
     if magic != b"glTF" or version != 2 or size != len(data):
@@ -75,7 +76,10 @@ def pieces_of(path):
 
 
 def weld(vertices, triangles):
-    """Returns triangles of places. Those that rounding to places made a line or point are left out."""
+    """Returns the distinct places, triangles of their indices, and the number of all triangles.
+
+    Triangles with fewer than three distinct places are left out.
+    """
     places = {}
     number = [places.setdefault((x + 0.0, y + 0.0, z + 0.0), len(places)) for x, y, z in vertices]
     welded = [tuple(number[corner] for corner in triangle) for triangle in triangles]
@@ -83,7 +87,7 @@ def weld(vertices, triangles):
 
 
 def volume_of(places, triangles):
-    """Returns the enclosed volume about the middle, summed exactly, and the volume of the box."""
+    """Returns the enclosed volume, summed exactly about the middle, and that of the bounding box."""
     low = [min(p[i] for p in places) for i in range(3)]
     high = [max(p[i] for p in places) for i in range(3)]
     middle = [(a + b) / 2 for a, b in zip(low, high)]
@@ -96,7 +100,7 @@ def volume_of(places, triangles):
 
 
 def check(vertices, triangles):
-    """Returns what is wrong with the edges of a piece, and its volume."""
+    """Returns the counts of edges and faulty edges of a piece, and its volumes."""
     places, welded, all_triangles = weld(vertices, triangles)
     directed = {}
     for a, b, c in welded:

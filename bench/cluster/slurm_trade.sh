@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Shares a study among the nodes of a Slurm cluster, a task of the array a share:
+# Runs a study on the nodes of a Slurm cluster, one share per task of a job array:
 #
 #   sbatch --array=1-8 bench/cluster/slurm_trade.sh SCENE... -o DIR [OPTIONS OF sunder trade]
 #
-# from a folder that all nodes see; DIR lies there too. Then, once the array is done:
+# in a folder that all nodes share and that contains DIR. When the array is done:
 #
 #   build/sunder trade --merge SCENE... -o DIR [THE SAME OPTIONS]
 #
-# which names what is missing; the same sbatch does it. SUNDER names the program.
+# which lists missing runs; the same sbatch does them. SUNDER names the program.
 #SBATCH --job-name=sunder-trade
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task=1

@@ -18,7 +18,7 @@ bool is_finite(const FrameBody& body) {
          body.velocity_W.allFinite() && body.angular_velocity_W.allFinite();
 }
 
-std::string told(const Scene& scene, const Preset& preset) {
+std::string collect_warnings(const Scene& scene, const Preset& preset) {
   std::string all;
   for (const std::string& warning : scenes::run_info(scene, preset.name).warnings)
     all += (all.empty() ? "" : "; ") + warning;
@@ -29,7 +29,7 @@ double energy_J(const FrameReport& report) { return report.kinetic_J + report.po
 
 }  // namespace
 
-double Run::moved_m() const {
+double Run::largest_displacement_m() const {
   double most = 0;
   for (const FrameBody& before : first->bodies) {
     const auto now = std::ranges::lower_bound(last->bodies, before.key, {}, &FrameBody::key);
@@ -45,7 +45,7 @@ double Run::speed_m_s(std::uint64_t key) const {
   return kNever;
 }
 
-double Run::overlap_left_m() const {
+double Run::final_penetration_m() const {
   double deepest = 0;
   for (const float depth : last->report.penetrations_m)
     deepest = std::max(deepest, static_cast<double>(depth));
@@ -61,14 +61,14 @@ Run run(Scene scene) {
     all.last = frame;
     const FrameReport& report = frame->report;
     if (!std::all_of(frame->bodies.begin(), frame->bodies.end(), is_finite)) {
-      all.energy_gained = all.deepest_m = all.mass_off = all.momentum_off = kNever;
+      all.energy_gained = all.deepest_m = all.mass_error = all.momentum_error = kNever;
       break;
     }
     const double gain_J = energy_J(report) - first_J;
     all.energy_gained = std::max(all.energy_gained, gain_J > 0 ? gain_J / first_J : 0);
-    all.mass_off = std::max(all.mass_off, std::abs(report.mass_kg / first_kg - 1));
-    all.momentum_off = std::max(all.momentum_off, report.momentum_residual);
-    all.deepest_m = std::max(all.deepest_m, all.overlap_left_m());
+    all.mass_error = std::max(all.mass_error, std::abs(report.mass_kg / first_kg - 1));
+    all.momentum_error = std::max(all.momentum_error, report.momentum_residual);
+    all.deepest_m = std::max(all.deepest_m, all.final_penetration_m());
   }
   return all;
 }
@@ -101,7 +101,7 @@ Truth extreme(int row, const char* what, const char* unit, const char* source, d
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
               const SceneAt& scene, Measure measure, const Bounds& bounds) {
   Truth one = truth(row, what, unit, source, mark, std::move(measure), bounds);
-  one.told = [scene](const Preset& preset) { return told(scene(preset), preset); };
+  one.told = [scene](const Preset& preset) { return collect_warnings(scene(preset), preset); };
   return one;
 }
 

@@ -1,8 +1,7 @@
-// What becomes of scenes that ask for too much: figures at every preset, as truths are, and what a
-// user who asks is told. Printed by extremes_bench, asserted by tests/truths, tabled in
-// docs/extremes.md.
+// Validation of extreme scenes: results at every preset, and the warnings that a user gets for
+// these scenes. Printed by extremes_bench, asserted by tests/truths, listed in docs/extremes.md.
 //
-// Read first: extreme(). The lists are by theme, one a file.
+// Begin at extreme(). Each file of the folder has the scenes of one theme.
 #pragma once
 
 #include <limits>
@@ -17,37 +16,36 @@ namespace sunder::truths {
 
 using SceneAt = std::function<Scene(const Preset&)>;
 
-/// A scene from its first frame to its last, through the library, as a user runs it.
+/// Measurements of a scene that was simulated through the library from first to last frame.
 struct Run {
   FramePtr first, last;
-  double energy_gained = 0;  ///< The most it rises above its start, over that.
-  double deepest_m = 0;      ///< Overlap of any frame.
-  double mass_off = 0;       ///< The most that mass is off its start, over that.
-  double momentum_off = 0;   ///< The most that no force accounts for (FrameReport).
+  double energy_gained = 0;   ///< Largest rise of energy above its start, divided by the start.
+  double deepest_m = 0;       ///< Largest penetration of any frame.
+  double mass_error = 0;      ///< Largest deviation of mass from its start, divided by the start.
+  double momentum_error = 0;  ///< Largest FrameReport::momentum_residual.
 
-  /// At the end, of a body of the first frame; infinite if it is there no more.
+  /// Returns the final speed of a body of the first frame; infinity if the body is gone.
   double speed_m_s(std::uint64_t key) const;
-  /// The furthest that a body of the first frame is from its place in the last; infinite if it is
-  /// there no more.
-  double moved_m() const;
-  double overlap_left_m() const;
+  /// Returns the largest final displacement of a body of the first frame; infinity if one is gone.
+  double largest_displacement_m() const;
+  /// Returns the largest penetration of the last frame.
+  double final_penetration_m() const;
 };
-/// Never finite in any figure if a body is not.
+/// Simulates a scene. All measurements are infinite if the state of a body is not finite.
 Run run(Scene scene);
 
-/// A scene of a text and a duration; `set` as on the command line.
+/// Returns the scene of a text with the given duration; `set` has KEY=VALUE, as --set.
 Scene scene_at(const Preset& preset, const std::string& text, double duration_s,
                std::vector<std::string> set = {});
 
-/// Mean of a figure over runs of a scene with seeds 1 to 8: one run of rubble says little of the
-/// next.
+/// Returns the mean over seeds 1 to 8, because results of rubble differ much from seed to seed.
 double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figure);
 
-/// A truth about a scene.
+/// Returns a validation case that simulates the scene and measures `figure`.
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
               const SceneAt& scene, const std::function<double(const Run&)>& figure,
               const Bounds& bounds);
-/// A truth about something else that is done with the scene that a user would be told of.
+/// Returns a validation case with any measurement; the scene is the one whose warnings a user gets.
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,
               const SceneAt& scene, Measure measure, const Bounds& bounds);
 
@@ -58,7 +56,7 @@ Truths surface_extremes();
 Truths speed_extremes();
 Truths place_extremes();
 
-/// All of these, in the order of their rows.
+/// Returns all extreme cases, in the order of their rows.
 Truths all_extremes();
 
 }  // namespace sunder::truths

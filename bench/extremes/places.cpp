@@ -1,4 +1,4 @@
-// Far from the origin, slivers, and a hundred thousand bodies.
+// Extreme cases far from the origin, with slivers, and with a hundred thousand bodies.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace sunder::truths {
 namespace {
 
-constexpr double kFar_m = 1e5;
+constexpr double kDistance_m = 1e5;
 
 std::string place(double x_m, double y_m, double z_m) {
   return "position = [" + std::to_string(x_m) + ", " + std::to_string(y_m) + ", " +
@@ -27,16 +27,16 @@ std::string wall_and_ball(double x_m) {
          place(x_m, 1.2, 2);
 }
 
-SceneAt far_off(std::string (*text)(double), double duration_s) {
-  return [=](const Preset& preset) { return scene_at(preset, text(kFar_m), duration_s); };
+SceneAt at_distance(std::string (*text)(double), double duration_s) {
+  return [=](const Preset& preset) { return scene_at(preset, text(kDistance_m), duration_s); };
 }
 
-/// What a figure is far off, over what it is at the origin, less one.
-Measure off_the_origin(std::string (*text)(double), double duration_s,
-                       double (*figure)(const Run&)) {
+/// Measures the relative difference of a result 1e5 m off from the result at the origin.
+Measure relative_to_origin(std::string (*text)(double), double duration_s,
+                           double (*figure)(const Run&)) {
   return [=](const Preset& preset) {
     const double here = mean_of_seeds(scene_at(preset, text(0), duration_s), figure);
-    return mean_of_seeds(scene_at(preset, text(kFar_m), duration_s), figure) / here - 1;
+    return mean_of_seeds(scene_at(preset, text(kDistance_m), duration_s), figure) / here - 1;
   };
 }
 
@@ -54,7 +54,7 @@ Scene slivers(const Preset& preset) {
   return scene_at(preset, text, 10);
 }
 
-/// A pane of a millimetre by a metre by a metre that breaks.
+/// Returns a pane of 1 m by 1 m by 1 mm that a ball breaks.
 Scene thin_pane(const Preset& preset) {
   return scene_at(preset,
                   "[[solid]]\nstructure = \"pane\"\nwidth_m = 1\nheight_m = 1\nthickness_m = "
@@ -72,7 +72,7 @@ double fastest(const Run& run) {
   return most;
 }
 
-/// Walls of a thousand bricks each, side by side.
+/// Returns `count` walls of a thousand bricks each, side by side.
 SceneAt walls(int count) {
   return [count](const Preset& preset) {
     std::string text;
@@ -84,10 +84,10 @@ SceneAt walls(int count) {
     return scene_at(preset, text, 0.1, {"limits.bodies=200000"});
   };
 }
-constexpr int kMany = 100, kFewer = 10, kSome = 20;
+constexpr int kManyWalls = 100, kFewerWalls = 10, kThreadTestWalls = 20;
 
-/// Processor time of the same for each body, over that of a tenth of them, less one.
-double dearer(const Preset& preset) {
+/// Relative increase of processor time per body from 10,000 to 100,000 bricks.
+double cost_increase(const Preset& preset) {
   const auto cpu_ms_a_body = [&](int count) {
     Scene scene = walls(count)(preset);
     const std::size_t bodies = scene.solids.size();
@@ -95,15 +95,15 @@ double dearer(const Preset& preset) {
     run(std::move(scene));
     return (cpu_ms() - start_ms) / static_cast<double>(bodies);
   };
-  const double of_fewer_ms = cpu_ms_a_body(kFewer);
-  return cpu_ms_a_body(kMany) / of_fewer_ms - 1;
+  const double of_fewer_ms = cpu_ms_a_body(kFewerWalls);
+  return cpu_ms_a_body(kManyWalls) / of_fewer_ms - 1;
 }
 
-/// How many of two runs end otherwise than that of one thread does.
+/// Number of runs (with 2 and 4 threads) whose final state differs from that with 1 thread.
 double thread_differences(const Preset& preset) {
   const auto hash = [&](int threads) {
     set_threads(threads);
-    return hash_state(*run(walls(kSome)(preset)).last);
+    return hash_state(*run(walls(kThreadTestWalls)(preset)).last);
   };
   const std::uint64_t one = hash(1);
   const double differ = double(hash(2) != one) + double(hash(4) != one);
@@ -115,30 +115,32 @@ double thread_differences(const Preset& preset) {
 
 Truths place_extremes() {
   return {
-      extreme(9, "stack of 10, 1e5 m off, 5 s: moves", "mm", "rest", 2, far_off(stack, 5),
-              [](const Run& r) { return 1e3 * r.moved_m(); }, {0.2, 0.2, 0.2, 0.2}),
+      extreme(9, "stack of 10, 1e5 m off, 5 s: moves", "mm", "rest", 2, at_distance(stack, 5),
+              [](const Run& r) { return 1e3 * r.largest_displacement_m(); }, {0.2, 0.2, 0.2, 0.2}),
       extreme(9, "ball through a wall, 1e5 m off: exit speed", "", "that at the origin", 0.1,
-              far_off(wall_and_ball, 0.5), off_the_origin(wall_and_ball, 0.5, exit_speed),
+              at_distance(wall_and_ball, 0.5), relative_to_origin(wall_and_ball, 0.5, exit_speed),
               {0.05, 0.019, 0.02, 0.035}),
       extreme(9, "ball through a wall, 1e5 m off: bodies", "", "those at the origin", 0.25,
-              far_off(wall_and_ball, 0.5), off_the_origin(wall_and_ball, 0.5, bodies),
+              at_distance(wall_and_ball, 0.5), relative_to_origin(wall_and_ball, 0.5, bodies),
               {0.13, 0.025, 0.058, 0.06}),
       extreme(9, "ball through a wall, 1e5 m off: mass", "", "constant", 1e-9,
-              far_off(wall_and_ball, 1), &Run::mass_off, {1e-10, 1e-10, 1e-10, 1e-10}),
+              at_distance(wall_and_ball, 1), &Run::mass_error, {1e-10, 1e-10, 1e-10, 1e-10}),
       extreme(10, "slivers of 1 : 1,000 after 10 s: fastest", "m/s", "rest", 0.1, slivers, fastest,
               {0.25, 0.1, 0.1, 0.075}),
       extreme(10, "slivers of 1 : 1,000: energy gained", "", "none", 1e-3, slivers,
               &Run::energy_gained, {0.0001, 0.00014, 0.00012, 0.0001}),
       extreme(10, "pane of 1 mm by 1 m, shot: mass", "", "constant", 1e-9, thin_pane,
-              &Run::mass_off, {1e-10, 1e-10, 1e-10, 1e-10}),
+              &Run::mass_error, {1e-10, 1e-10, 1e-10, 1e-10}),
       extreme(10, "pane of 1 mm by 1 m, shot: energy gained", "", "none", 1e-3, thin_pane,
               &Run::energy_gained, {0.0001, 0.0001, 0.0001, 0.0001}),
-      extreme(11, "20,000 bricks in 20 walls, 0.1 s: moves", "mm", "rest", 2, walls(kSome),
-              [](const Run& r) { return 1e3 * r.moved_m(); }, {0.2, 0.2, 0.2, 0.2}),
+      extreme(11, "20,000 bricks in 20 walls, 0.1 s: moves", "mm", "rest", 2,
+              walls(kThreadTestWalls),
+              [](const Run& r) { return 1e3 * r.largest_displacement_m(); }, {0.2, 0.2, 0.2, 0.2}),
       extreme(11, "20,000 bricks, 2 and 4 threads: ends other than 1 thread's", "", "none", 0,
-              walls(kSome), Measure(thread_differences), {0, 0, 0, 0}),
+              walls(kThreadTestWalls), Measure(thread_differences), {0, 0, 0, 0}),
       timing(extreme(11, "100,000 bricks: processor time of each, over that of 10,000, less one",
-                     "", "linear", 0.2, walls(kMany), Measure(dearer), {0.6, 0.3, 0.36, 0.27})),
+                     "", "linear", 0.2, walls(kManyWalls), Measure(cost_increase),
+                     {0.6, 0.3, 0.36, 0.27})),
   };
 }
 

@@ -1,4 +1,5 @@
-// Steps far shorter than a preset's, by scene file, and far longer, by a scene made in code.
+// Extreme cases with steps far shorter than a preset's, which a scene file may have, and far longer
+// ones, which only a scene made in code may have.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,10 +7,11 @@
 #include "bench/extremes/extreme.h"
 
 namespace sunder::truths {
+// Steps per second.
 namespace {
 
-constexpr std::array kShort_1_s = {60, 240, 960, 10020};
-constexpr std::array kLong_1_s = {30, 10};
+constexpr std::array kHighRates_Hz = {60, 240, 960, 10020};
+constexpr std::array kLowRates_Hz = {30, 10};
 
 constexpr const char* kStack = "[[solid]]\nstructure = \"stack\"\nmaterial = \"steel\"\n";
 constexpr const char* kBounces = R"(
@@ -28,7 +30,7 @@ rotation_deg = [10, 0, 20]
 position = [1, 2, 0]
 material = "elastic"
 )";
-/// 25 m/s at a plate of 50 mm that the world holds, and at one that flies.
+/// Scene text: balls of 25 m/s at an anchored and at a free plate of 50 mm.
 constexpr const char* kPlates = R"(
 [[solid]]
 structure = "box"
@@ -64,26 +66,27 @@ velocity = [0, 0, -20]
 radius_m = 0.3
 )";
 
-/// The step that is the hardest on what is told: the first.
+/// Returns the scene with the longest of the steps, which has the strictest warnings.
 template <std::size_t kCount>
-SceneAt first_of(const char* text, double duration_s, const std::array<int, kCount>& steps_1_s) {
+SceneAt at_longest_step(const char* text, double duration_s,
+                        const std::array<int, kCount>& rates_Hz) {
   return [=](const Preset& preset) {
     Scene scene = scene_at(preset, text, duration_s);
-    scene.accuracy.dt_s = 1.0 / *std::min_element(steps_1_s.begin(), steps_1_s.end());
+    scene.accuracy.dt_s = 1.0 / *std::min_element(rates_Hz.begin(), rates_Hz.end());
     return scene;
   };
 }
 
-/// The worst of several steps; scenes made in code take any.
+/// Measures the worst result over several steps. Scenes made in code may have steps of any length.
 template <std::size_t kCount>
-Measure worst_of(const char* text, double duration_s, const std::array<int, kCount>& steps_1_s,
+Measure worst_of(const char* text, double duration_s, const std::array<int, kCount>& rates_Hz,
                  const std::function<double(const Run&)>& figure,
                  const std::vector<std::string>& set = {}) {
   return [=](const Preset& preset) {
     double worst = 0;
-    for (const int step_1_s : steps_1_s) {
+    for (const int rate_Hz : rates_Hz) {
       Scene scene = scene_at(preset, text, duration_s, set);
-      scene.accuracy.dt_s = 1.0 / step_1_s;
+      scene.accuracy.dt_s = 1.0 / rate_Hz;
       const double value = figure(run(std::move(scene)));
       if (!(value <= worst)) worst = value;
     }
@@ -97,7 +100,7 @@ double behind_plates(const Run& run) {
   return double(bodies[2].X_WB.position.z() < 0) + double(bodies[3].X_WB.position.z() < free_m);
 }
 
-/// A ball through a wall in steps of 1/10,020 s: how much faster than in the preset's.
+/// Relative error of the ball's exit speed with steps of 1/10,020 s, against the preset's step.
 double exit_speed_off(const Preset& preset) {
   const auto speed = [&](double dt_s) {
     Scene scene = scene_at(preset, kWall, 0.5);
@@ -110,36 +113,37 @@ double exit_speed_off(const Preset& preset) {
 }  // namespace
 
 Truths step_extremes() {
-  const auto moves = [](const Run& r) { return 1e3 * r.moved_m(); };
+  const auto moves = [](const Run& r) { return 1e3 * r.largest_displacement_m(); };
   const std::vector<std::string> weightless = {"scene.gravity=[0, 0, 0]"};
-  const auto fastest_short = first_of(kWall, 0.5, std::array{10020});
+  const auto fastest_short = at_longest_step(kWall, 0.5, std::array{10020});
   return {
       extreme(3, "stack of 10, dt 1/60 to 1/10,020, 2 s: moves", "mm", "rest", 2,
-              first_of(kStack, 2, kShort_1_s), worst_of(kStack, 2, kShort_1_s, moves),
+              at_longest_step(kStack, 2, kHighRates_Hz), worst_of(kStack, 2, kHighRates_Hz, moves),
               {0.2, 0.2, 0.2, 0.2}),
       extreme(3, "boxes that bounce, dt 1/60 to 1/10,020, 2 s: energy gained", "", "none", 1e-3,
-              first_of(kBounces, 2, kShort_1_s),
-              worst_of(kBounces, 2, kShort_1_s, &Run::energy_gained),
+              at_longest_step(kBounces, 2, kHighRates_Hz),
+              worst_of(kBounces, 2, kHighRates_Hz, &Run::energy_gained),
               {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(3, "ball through a wall, dt 1/10,020: exit speed off that of the preset's dt", "",
               "the same", 0.2, fastest_short, Measure(exit_speed_off), {0.25, 0.25, 0.3, 0.15}),
       extreme(4, "stack of 10, dt 1/30 and 1/10, 5 s: moves", "mm", "rest", 2,
-              first_of(kStack, 5, kLong_1_s), worst_of(kStack, 5, kLong_1_s, moves),
+              at_longest_step(kStack, 5, kLowRates_Hz), worst_of(kStack, 5, kLowRates_Hz, moves),
               {1.2e+04, 1.2e+04, 0.2, 2.1e+03}),
       extreme(4, "boxes that bounce, dt 1/30 and 1/10, 5 s: energy gained", "", "none", 1e-3,
-              first_of(kBounces, 5, kLong_1_s),
-              worst_of(kBounces, 5, kLong_1_s, &Run::energy_gained),
+              at_longest_step(kBounces, 5, kLowRates_Hz),
+              worst_of(kBounces, 5, kLowRates_Hz, &Run::energy_gained),
               {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(4, "25 m/s at plates of 50 mm, dt 1/30 and 1/10: pass", "", "none passes", 0,
-              first_of(kPlates, 1, kLong_1_s), worst_of(kPlates, 1, kLong_1_s, behind_plates),
-              {0, 0, 0, 0}),
+              at_longest_step(kPlates, 1, kLowRates_Hz),
+              worst_of(kPlates, 1, kLowRates_Hz, behind_plates), {0, 0, 0, 0}),
       extreme(4, "ball through a wall, dt 1/30 and 1/10, weightless: energy gained", "", "none",
-              1e-3, first_of(kWall, 2, kLong_1_s),
-              worst_of(kWall, 2, kLong_1_s, &Run::energy_gained, weightless),
+              1e-3, at_longest_step(kWall, 2, kLowRates_Hz),
+              worst_of(kWall, 2, kLowRates_Hz, &Run::energy_gained, weightless),
               {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(4, "ball through a wall, dt 1/30 and 1/10: overlap left", "mm", "rigid", 10,
-              first_of(kWall, 2, kLong_1_s),
-              worst_of(kWall, 2, kLong_1_s, [](const Run& r) { return 1e3 * r.overlap_left_m(); }),
+              at_longest_step(kWall, 2, kLowRates_Hz),
+              worst_of(kWall, 2, kLowRates_Hz,
+                       [](const Run& r) { return 1e3 * r.final_penetration_m(); }),
               {5.9e+02, 3.9e+02, 5.9e+02, 1.5e+02}),
   };
 }

@@ -1,6 +1,6 @@
-// Bullet as it comes, but for its margin of 4 cm around hulls, which would make pieces of 10 cm
-// nearly twice as large: it is 1 mm here, and hulls shrink by as much, so that they touch where
-// ours do.
+// Adapter to Bullet with its default settings, except for the collision margin: the default of 4 cm
+// would make pieces of 10 cm nearly twice as large. The margin is 1 mm, and hulls shrink by 1 mm,
+// so that contact surfaces are those of our hulls.
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
@@ -19,8 +19,9 @@ btVector3 to_bullet(const Vec3& v) {
 
 Vec3 from_bullet(const btVector3& v) { return Vec3f(v.x(), v.y(), v.z()).cast<double>(); }
 
-/// How much smaller about its centre of mass a hull is with its nearest face a margin further in.
-double shrinking(const ShapeDesc& shape, const Vec3& com_R) {
+/// Returns the factor that scales a hull about its centre of mass so that its nearest face moves
+/// inwards by the margin; at least 0.5.
+double shrink_factor(const ShapeDesc& shape, const Vec3& com_R) {
   double inner_m = 1e30;
   for (const ConvexPolyhedron::Face& face : shape.hull->faces) {
     inner_m = std::min(inner_m, -face.plane.distance(com_R));
@@ -61,7 +62,7 @@ class Bullet final : public Peer {
           to_bullet(shape.normal_R), static_cast<btScalar>(shape.normal_R.dot(point))));
     } else {
       auto hull = std::make_unique<btConvexHullShape>();
-      const double scale = shrinking(shape, desc.com_R);
+      const double scale = shrink_factor(shape, desc.com_R);
       for (const Vec3& vertex : shape.hull->vertices) {
         hull->addPoint(to_bullet(scale * (vertex - desc.com_R)), false);
       }
@@ -73,7 +74,7 @@ class Bullet final : public Peer {
     }
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shapes_.back().get(), inertia);
     if (mass > 0) info.m_startWorldTransform.setOrigin(to_bullet(desc.X_WB.position));
-    info.m_friction = static_cast<btScalar>(std::sqrt(shape.friction));  // Bullet multiplies
+    info.m_friction = static_cast<btScalar>(std::sqrt(shape.friction));  // Bullet multiplies them
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
     world_.addRigidBody(bodies_.back().get());

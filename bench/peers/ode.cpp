@@ -1,4 +1,4 @@
-// ODE's quick step; eight contacts a pair, its own ERP and CFM.
+// Adapter to ODE: quick step, at most eight contacts per pair, default ERP and CFM.
 #include <ode/ode.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostContacts = 8;
 
-/// The arrays that a convex of ODE's reads as long as it lives.
+/// Arrays that an ODE convex points to; they must live as long as the convex.
 struct Convex {
   std::vector<dReal> planes, points;
   std::vector<unsigned> polygons;

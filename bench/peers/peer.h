@@ -1,4 +1,4 @@
-// An engine that settles a pile, so that all are given the same and asked the same.
+// Interface to a rigid-body engine, so that all engines simulate the same pile.
 #pragma once
 
 #include <memory>
@@ -9,22 +9,22 @@
 
 namespace sunder::bench {
 
-/// What an engine is asked to do with its time.
+/// Step rate and iterations of an engine.
 struct Effort {
-  double rate_Hz = 60;  ///< Steps a second.
-  int passes = 0;       ///< Substeps (ours) or iterations a step (theirs).
+  double rate_Hz = 60;  ///< Steps per second.
+  int passes = 0;       ///< Substeps per step (Sunder) or iterations per step (the others).
 };
 
 class Peer {
  public:
   virtual ~Peer() = default;
   virtual void step(double dt_s) = 0;
-  /// Of body i of those it was made with; its B is that of the description.
+  /// Returns the state of body i of the constructor's list, in the body frame of its description.
   virtual BodyState state(std::size_t i) const = 0;
 };
 
-// Each takes hulls and half-spaces, without sleeping, on one thread; friction is the geometric mean
-// of the two shapes'. Null where the engine was not found when the bench was configured.
+// Each function makes an engine with the bodies (hulls and half-spaces), on one thread without
+// sleeping; friction is the geometric mean of both shapes. It is undefined for a missing engine.
 std::unique_ptr<Peer> make_sunder(std::span<const BodyDesc> bodies, const Effort& effort);
 std::unique_ptr<Peer> make_bullet(std::span<const BodyDesc> bodies, const Effort& effort);
 std::unique_ptr<Peer> make_ode(std::span<const BodyDesc> bodies, const Effort& effort);

@@ -1,6 +1,6 @@
-// Our rigid solver beside Bullet and ODE: the same rubble, one thread, no sleeping; how long it
-// takes, how deep pieces overlap in the end, and whether they rest. Prints a Markdown table in
-// which * marks what nobody else beats in both time and depth.
+// Comparison of our rigid solver with Bullet and ODE on the same rubble (one thread, no sleeping):
+// time per frame, penetration and residual speed at the end. Prints a Markdown table; * marks
+// results that no other beats in both time and depth.
 //
 //   peers_bench [--hulls N] [--frames N] [--engine sunder|bullet|ode] [--defaults]
 #include <cstdio>
@@ -19,11 +19,11 @@ namespace {
 
 using Make = std::unique_ptr<Peer> (*)(std::span<const BodyDesc>, const Effort&);
 
-/// An engine at an effort; the first of each is how it comes.
+/// An engine with a step rate and an iteration count; the first of each engine is its default.
 struct Entry {
   const char* engine;
   const char* how;
-  Make make;  ///< Null: not found when the bench was configured.
+  Make make;  ///< Null if CMake did not find the engine.
   Effort effort;
   bool is_default;
 };
@@ -62,13 +62,13 @@ struct Options {
 struct Result {
   const Entry* entry;
   double average_ms = 0, worst_ms = 0, last_ms = 0;  ///< Processor time of a frame.
-  double mean_mm = 0, max_mm = 0;                    ///< Of pairs that overlap.
+  double mean_mm = 0, max_mm = 0;                    ///< Penetration over overlapping pairs.
   double rms_m_s = 0;
   std::size_t overlapping = 0;
-  std::size_t lost = 0;  ///< Out of the pit, or nowhere.
+  std::size_t lost = 0;  ///< Bodies outside the pit or without a finite position.
 };
 
-void judge(const Pile& pile, const Peer& peer, Result& result) {
+void measure_end_state(const Pile& pile, const Peer& peer, Result& result) {
   constexpr double kOut_m = 0.5;
   const double wall_m = pile.bodies[2].shapes[0].center_R.norm() + kOut_m;
   std::vector<Pose> poses;
@@ -82,7 +82,7 @@ void judge(const Pile& pile, const Peer& peer, Result& result) {
     if (!at.allFinite() || at.y() < -kOut_m || std::abs(at.x()) > wall_m ||
         std::abs(at.z()) > wall_m) {
       ++result.lost;
-      poses.back().position.setConstant(NAN);  // no pile there
+      poses.back().position.setConstant(NAN);  // penetrations() skips bodies without a position
       continue;
     }
     squares += state.velocity_W.squaredNorm();
@@ -110,7 +110,7 @@ Result run(const Pile& pile, const Entry& entry, const Options& options) {
     result.worst_ms = std::max(result.worst_ms, ms);
     if (frame >= options.frames - last) result.last_ms += ms / last;
   }
-  judge(pile, *peer, result);
+  measure_end_state(pile, *peer, result);
   return result;
 }
 
@@ -121,7 +121,8 @@ bool is_beaten(const Result& result, std::span<const Result> all) {
   });
 }
 
-/// How much faster ours is than another at its default: as it comes, and at no more depth.
+/// Prints how much faster ours is than another engine at its defaults: with our defaults, and with
+/// our fastest setting that has no more penetration.
 void compare(const Result& theirs, std::span<const Result> all) {
   double fastest_ms = 0;
   for (const Result& ours : all) {

@@ -6,7 +6,7 @@
 namespace sunder::bench {
 namespace {
 
-/// A hull where it is.
+/// A hull at its pose in the world.
 struct Placed {
   std::vector<Vec3> vertices, normals, edges;
   Box box;
@@ -39,7 +39,7 @@ std::pair<double, double> extent(const Placed& placed, const Vec3& axis) {
   return {low, high};
 }
 
-/// The least way that parts them; not positive if they do not overlap.
+/// Returns the least separating translation, in m; not positive if the hulls do not overlap.
 double depth_of(const Placed& a, const Placed& b) {
   double least = std::numeric_limits<double>::max();
   const auto overlaps = [&](const Vec3& axis) {

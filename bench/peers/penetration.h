@@ -1,4 +1,4 @@
-// How deep pieces overlap, from their poses alone: one judge for all engines.
+// Penetration depths from poses alone, so that all engines are measured in the same way.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace sunder::bench {
 
-/// Depths (m, > 0) of all pairs that overlap, half-spaces included, by the separating axis test in
-/// double precision over faces and pairs of edges.
+/// Returns the depths (m, > 0) of all overlapping pairs, half-spaces included, by the separating
+/// axis test in double precision over faces and pairs of edges.
 std::vector<double> penetrations(std::span<const BodyDesc> bodies, std::span<const Pose> X_WBs);
 
 }  // namespace sunder::bench

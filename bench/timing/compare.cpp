@@ -12,8 +12,8 @@
 namespace sunder::bench {
 namespace {
 
-/// What runs must have in common to be compared, as far as the older file has it.
-constexpr const char* kSameRun[] = {
+/// Values that must be equal in both runs, if the older file has them.
+constexpr const char* kRunKeys[] = {
     "/preset", "/frames", "/dt_s", "/substeps", "/solver/max_colors", "/solver/sweeps", "/threads"};
 
 const Figures* find_scene(std::span<const Figures> scenes, const std::string& name) {
@@ -27,10 +27,11 @@ std::string figure_text(const Figures& figures, const std::string& place) {
   return text.empty() ? rounded(number_at(figures, place), 6) : text;
 }
 
-/// Why the two are no runs of the same; empty if they are.
-std::string why_other(const Figures& now, const Figures& old, const std::string& old_file) {
-  for (const std::string place : kSameRun) {
-    if (!old.contains(place)) continue;  // older than the figure
+/// Returns the reason why the runs cannot be compared; empty if they can.
+std::string incomparable_reason(const Figures& now, const Figures& old,
+                                const std::string& old_file) {
+  for (const std::string place : kRunKeys) {
+    if (!old.contains(place)) continue;  // file of an older version
     const std::string after = figure_text(now, place), before = figure_text(old, place);
     if (after == before) continue;
     return "not comparable: " + place.substr(1) + " is " + before + " in " + old_file +
@@ -39,8 +40,8 @@ std::string why_other(const Figures& now, const Figures& old, const std::string&
   return {};
 }
 
-/// The verdict on two runs that can be compared.
-Verdict judge_run(const Figures& now, const Figures& old, const std::string& old_file) {
+/// Checks that two comparable runs have the same state.
+Verdict check_same_state(const Figures& now, const Figures& old, const std::string& old_file) {
   Verdict verdict{text_at(now, "/scene"), "same run", Outcome::kPassed, {}};
   const std::string after = text_at(now, "/state_hash"), before = text_at(old, "/state_hash");
   if (after != before) {
@@ -55,7 +56,7 @@ Verdict judge_run(const Figures& now, const Figures& old, const std::string& old
   return verdict;
 }
 
-/// Means of the stage by repeat; the single time where a file does not have them.
+/// Returns the stage's means by repeat; the time at `place` if there are none.
 std::vector<double> repeats_of(const Figures& scene, const Change& change,
                                const std::string& place) {
   const std::string at = "/repeat_ms/" + change.stage + (change.is_cpu ? "/processor/" : "/wall/");
@@ -66,8 +67,8 @@ std::vector<double> repeats_of(const Figures& scene, const Change& change,
   return means;
 }
 
-/// Of the stage, what both have: processor time before wall time, and the mean before the median of
-/// frames, which jumps where some frames are quiet and some are not.
+/// Returns the change of a stage in a time that both runs have: processor time before wall time,
+/// and the mean before the median, which can jump if frames are partly idle.
 std::optional<Change> change_of(const std::string& stage, const std::string& at, const Figures& now,
                                 const Figures& old, bool paired) {
   for (const std::string figure : {"mean", "p50"}) {
@@ -84,15 +85,15 @@ std::optional<Change> change_of(const std::string& stage, const std::string& at,
   return std::nullopt;
 }
 
-std::string sentence(const Change& change) {
+std::string describe(const Change& change) {
   return change.figure + " " + rounded(change.before_ms) + " ms of " +
          (change.is_cpu ? "processor" : "wall") + " time before, " + rounded(change.after_ms) +
          " ms now; change " + change.interval();
 }
 
-Verdict judge_stage(const Change& change, std::optional<double> fail_slower) {
+Verdict check_stage(const Change& change, std::optional<double> fail_slower) {
   const bool fails = fail_slower && change.is_slower(*fail_slower);
-  std::string text = sentence(change);
+  std::string text = describe(change);
   if (fails) text += ", slower by more than " + rounded(100 * *fail_slower) + " %";
   return {change.scene, "stage " + change.stage, fails ? Outcome::kFailed : Outcome::kPassed, text};
 }
@@ -110,7 +111,7 @@ void compare_stages(const Figures& now, const Figures& old, std::optional<double
                                      "the older file has no time of it"});
       return;
     }
-    comparison.verdicts.push_back(judge_stage(*change, fail_slower));
+    comparison.verdicts.push_back(check_stage(*change, fail_slower));
     comparison.changes.push_back(*change);
   };
   for (const std::string stage : kStageNames) add(stage, "/stages/" + stage + "/");
@@ -146,13 +147,13 @@ Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
   for (const Figures& scene : now) {
     const std::string name = text_at(scene, "/scene");
     const Figures* before = find_scene(old, name);
-    const std::string why = before ? why_other(scene, *before, old_file)
+    const std::string why = before ? incomparable_reason(scene, *before, old_file)
                                    : "not in " + old_file + ": time it with the older program too";
     if (!why.empty()) {
       comparison.verdicts.push_back({name, "same run", Outcome::kFailed, why});
       continue;
     }
-    comparison.verdicts.push_back(judge_run(scene, *before, old_file));
+    comparison.verdicts.push_back(check_same_state(scene, *before, old_file));
     const bool same_state = comparison.verdicts.back().outcome == Outcome::kPassed;
     compare_stages(scene, *before, fail_slower, paired, same_state, comparison);
   }

@@ -16,8 +16,9 @@
 namespace sunder::bench {
 namespace {
 
-constexpr std::size_t kDigits = 4;                        // of a frame
-constexpr int kAfterBreak = 50, kAfterBreakOfOthers = 8;  // frames
+constexpr std::size_t kDigits = 4;  // hexadecimal digits per frame
+// Number of frames to store after the first break, at the run's own preset and at others.
+constexpr int kFramesAfterBreak = 50, kFramesAfterBreakOtherPresets = 8;
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
@@ -31,23 +32,23 @@ std::string digits_of(std::uint64_t hash) {
   return std::string(text, kDigits);
 }
 
-std::string place_of(const std::string& name, const std::string& preset) {
+std::string frames_key(const std::string& name, const std::string& preset) {
   return "frames/" + name + "/" + preset;
 }
 
-/// A state that `sunder bench` knows: over so many frames of a scene.
-struct WholeState {
+/// A stored state hash of `sunder bench` over the first frames of a scene.
+struct StoredState {
   int frames = 0;
   std::string what, hash;
 };
-std::optional<WholeState> find_whole(const StateHashes& book, const std::string& scene,
-                                     const std::string& preset, const std::string& file) {
+std::optional<StoredState> find_stored_state(const StateHashes& book, const std::string& scene,
+                                             const std::string& preset, const std::string& file) {
   const std::string place = "state/" + scene + "/" + preset + "/";
   const auto found = book.lower_bound(place);
   if (found == book.end() || !found->first.starts_with(place)) return std::nullopt;
   const std::string& what = found->first;
   const char* const end = what.data() + what.size();
-  WholeState state{0, what, found->second};
+  StoredState state{0, what, found->second};
   const auto [stop, error] = std::from_chars(what.data() + place.size(), end, state.frames);
   if (error != std::errc() || stop != end || state.frames < 0) {
     throw InputError(file + ": " + what + ": after " + place + " stands a number of frames");
@@ -55,51 +56,51 @@ std::optional<WholeState> find_whole(const StateHashes& book, const std::string&
   return state;
 }
 
-/// The frame that shows the first action of a scene's script; -1 if it has none.
+/// Returns the frame that shows the first action of a scene's script; -1 if it has none.
 int first_action(const Scene& scene) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   double first_s = scene.moves.empty() ? kNever : 0;
-  const auto look_at = [&](const auto& actions) {
+  const auto include = [&](const auto& actions) {
     for (const auto& action : actions) first_s = std::min(first_s, action.time_s);
   };
-  look_at(scene.shots);
-  look_at(scene.blasts);
-  look_at(scene.removals);
-  look_at(scene.drives);
+  include(scene.shots);
+  include(scene.blasts);
+  include(scene.removals);
+  include(scene.drives);
   return first_s < kNever ? static_cast<int>(std::ceil(60 * first_s)) : -1;
 }
 
 struct Run {
   std::unique_ptr<FrameSource> simulation;
-  int last = 0;           ///< Frame at which the scene ends.
-  int first_action = -1;  ///< As the function has it.
+  int last = 0;           ///< Last frame of the scene.
+  int first_action = -1;  ///< As returned by first_action().
 };
 Run run_of(const GuardedRun& run, const std::string& preset) {
   scenes::LoadOptions load = run.load;
   load.preset = preset;
   Scene scene = scenes::load_scene(run.scene, load);
-  const int last = last_frame(scene), acts = first_action(scene);
-  return {scenes::make_simulation(std::move(scene)), last, acts};
+  const int last = last_frame(scene), first_act = first_action(scene);
+  return {scenes::make_simulation(std::move(scene)), last, first_act};
 }
 
-/// Of the frames 0 to `last`, or as many as the scene has.
-StateHash states_until(const GuardedRun& run, const std::string& preset, int last) {
-  const Run found = run_of(run, preset);
+/// Returns the hashes of frames 0 to `last`, or of all frames of a shorter scene.
+StateHash hash_frames(const GuardedRun& run, const std::string& preset, int last) {
+  const Run setup = run_of(run, preset);
   StateHash states;
-  for (int i = 0; i <= std::min(last, found.last); ++i) states.take(found.simulation->next());
+  for (int i = 0; i <= std::min(last, setup.last); ++i) states.take(setup.simulation->next());
   return states;
 }
 
-/// The states of a run at a preset. What breaks before the script's first action does not end it.
-std::string found_digits(const GuardedRun& run, const std::string& preset) {
-  const int after = preset == run.load.preset ? kAfterBreak : kAfterBreakOfOthers;
-  const auto [simulation, last, acts] = run_of(run, preset);
+/// Returns the digits to store for a run; a break before the script's first action does not end it.
+std::string record_digits(const GuardedRun& run, const std::string& preset) {
+  const int after = preset == run.load.preset ? kFramesAfterBreak : kFramesAfterBreakOtherPresets;
+  const auto [simulation, last, first_act] = run_of(run, preset);
   StateHash states;
-  int end = std::min(run.frame > acts ? run.frame : acts + after, last);
+  int end = std::min(run.frame > first_act ? run.frame : first_act + after, last);
   bool has_broken = false;
   for (int i = 0; i <= end; ++i) {
     const FramePtr frame = simulation->next();
-    if (!has_broken && i >= acts && !frame->breaks.empty()) {
+    if (!has_broken && i >= first_act && !frame->breaks.empty()) {
       has_broken = true;
       end = std::min(i + after, last);
     }
@@ -108,7 +109,7 @@ std::string found_digits(const GuardedRun& run, const std::string& preset) {
   return frame_digits(states.per_frame());
 }
 
-Verdict judge_digits(const GuardedRun& run, const std::string& preset, const std::string& known,
+Verdict check_digits(const GuardedRun& run, const std::string& preset, const std::string& known,
                      std::span<const std::uint64_t> states) {
   Verdict verdict{run.name, "simulation at " + preset, Outcome::kPassed, {}};
   if (const std::optional<int> frame = first_difference(known, states)) {
@@ -120,7 +121,7 @@ Verdict judge_digits(const GuardedRun& run, const std::string& preset, const std
   return verdict;
 }
 
-Verdict judge_whole(const GuardedRun& run, const std::string& preset, const WholeState& known,
+Verdict check_state(const GuardedRun& run, const std::string& preset, const StoredState& known,
                     const StateHash& states) {
   const std::string hash = states.hex(static_cast<std::size_t>(known.frames) + 1);
   const bool same = hash == known.hash;
@@ -150,16 +151,16 @@ std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& bo
   std::vector<Verdict> verdicts;
   const std::string scene = scenes::scene_file(run.scene).stem().string();
   for (const std::string& preset : preset_names()) {
-    const auto known = book.find(place_of(run.name, preset));
+    const auto known = book.find(frames_key(run.name, preset));
     if (known == book.end()) continue;
-    std::optional<WholeState> all;
-    if (whole && run.load.set.empty()) all = find_whole(book, scene, preset, file);
+    std::optional<StoredState> all;
+    if (whole && run.load.set.empty()) all = find_stored_state(book, scene, preset, file);
     const int frames = static_cast<int>(known->second.size() / kDigits);
     const Stopwatch watch;
-    const StateHash states = states_until(run, preset, std::max(frames - 1, all ? all->frames : 0));
-    verdicts.push_back(judge_digits(run, preset, known->second, states.per_frame()));
-    verdicts.back().seconds = 1e-3 * watch.ms();  // of the whole run, too
-    if (all) verdicts.push_back(judge_whole(run, preset, *all, states));
+    const StateHash states = hash_frames(run, preset, std::max(frames - 1, all ? all->frames : 0));
+    verdicts.push_back(check_digits(run, preset, known->second, states.per_frame()));
+    verdicts.back().seconds = 1e-3 * watch.ms();  // includes the time for the state hash
+    if (all) verdicts.push_back(check_state(run, preset, *all, states));
   }
   if (verdicts.empty()) {
     verdicts.push_back({run.name, "simulation", Outcome::kFailed,
@@ -170,7 +171,7 @@ std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& bo
 
 void accept_frames(const GuardedRun& run, StateHashes& book) {
   for (const std::string& preset : preset_names()) {
-    book[place_of(run.name, preset)] = found_digits(run, preset);
+    book[frames_key(run.name, preset)] = record_digits(run, preset);
   }
 }
 

@@ -1,6 +1,6 @@
-// Whether the frames of a run are those that they are known to be, and if not, from which on. The
-// book (hash_book.h) has them as frames/NAME/PRESET: four digits of the state hash of every frame,
-// from frame 0 on. A run that has gone another way stays on it, so few digits are enough.
+// Comparison of every frame of a run with stored hashes, to find the first frame that differs.
+// Stored hashes (hash_book.h) have the key frames/NAME/PRESET and four hexadecimal digits of the
+// state hash of each frame. Few digits suffice, because a run that has diverged stays different.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,28 @@
 
 namespace sunder::bench {
 
-/// Of a run, of which every frame's hash is given.
+/// Returns the stored digits for the state hashes of a run's frames.
 std::string frame_digits(std::span<const std::uint64_t> run);
-/// The first of the known frames that is another in the run; none if all are the same.
+/// Returns the first known frame that the run lacks or that differs; nothing if all are equal.
 std::optional<int> first_difference(const std::string& known, std::span<const std::uint64_t> run);
 
-/// A scene that is simulated to be held against its states.
+/// A scene that is simulated and compared with its stored hashes.
 struct GuardedRun {
-  std::string name;   ///< In the book.
+  std::string name;   ///< Name in the keys of stored hashes.
   std::string scene;  ///< File or name.
   scenes::LoadOptions load;
-  int frame = 0;  ///< Where it ends if nothing breaks and the script has begun by then.
+  int frame = 0;  ///< Last frame to store if nothing breaks, unless the script begins later.
 };
 
-/// One for every preset that the book has frames for: "simulation at realtime" and so on; one that
-/// fails if it has none. `whole`: as well the states that `sunder bench` knows of the scene, if the
-/// run is of the scene as it is. `file` is what the book is called. Throws InputError.
+/// Simulates the scene at every preset with stored hashes and returns a verdict for each:
+/// "simulation at realtime" and so on. Without any stored hashes the only verdict is a failure.
+/// `whole`: the state hashes of `sunder bench` are checked as well, if the scene was not changed by
+/// --set. `file` is the name of the file of hashes in messages. Throws InputError.
 std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& book,
                                     const std::string& file, bool whole);
 
-/// Puts the states of the run into the book, until some time after the first break that does not
-/// come before the script's first action: 50 frames at its own preset, 8 at every other. Throws
+/// Stores the hashes of the run at every preset, up to 50 frames (at the run's own preset) or 8
+/// frames (at others) after the first break that is not before the script's first action. Throws
 /// InputError.
 void accept_frames(const GuardedRun& run, StateHashes& book);
 

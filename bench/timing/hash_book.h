@@ -1,10 +1,9 @@
-// Hashes of what is known to be right, by what they are of: one file in the repository
-// (tests/golden/hashes.txt), which only an accept command changes.
+// Stored state hashes of runs that are known to be right, in one file of the repository
+// (tests/golden/hashes.txt) that only the accept commands change.
 //
-// A line is WHAT HASH. WHAT is a path that says all that decides the hash:
-// state/SCENE/PRESET/FRAMES is the state hash over that many frames of a scene as it is given;
-// frames/GOLDEN/PRESET is that of every frame until after the first break, shortened
-// (frame_states.h).
+// A line is KEY HASH. The key is a path with everything that decides the hash:
+// state/SCENE/PRESET/FRAMES has the state hash over the first frames of an unchanged scene;
+// frames/GOLDEN/PRESET has shortened hashes of frames until after the first break (frame_states.h).
 #pragma once
 
 #include <map>
@@ -14,11 +13,12 @@ namespace sunder::bench {
 
 using StateHashes = std::map<std::string, std::string>;
 
-/// From the text of a file; `file` is what errors call it. Throws InputError naming the line.
+/// Parses the text of a file of hashes, named `file` in messages. Throws InputError naming the
+/// line.
 StateHashes parse_hashes(const std::string& text, const std::string& file);
-/// Of a file; none if there is no file.
+/// Reads a file of hashes; returns none if there is no file.
 StateHashes read_hashes(const std::string& file);
-/// As a file has it.
+/// Returns the text of a file of hashes.
 std::string format_hashes(const StateHashes& book);
 
 }  // namespace sunder::bench

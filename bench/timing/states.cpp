@@ -18,36 +18,36 @@ bool differs(const Figures& scene) {
 constexpr const char* kDiffers =
     "its repeats come to different states; `sunder simulate --take` and --verify find the frame";
 
-/// Why a run has no stored state to be held against; empty if it has.
-std::string not_held(const Figures& scene) {
+/// Returns the reason why a run has no stored hash to be compared with; empty if it has one.
+std::string reason_not_checked(const Figures& scene) {
   if (scene.contains("/set/0")) return "changed by --set, so not held against a stored state";
   if (scene.contains("/state/hash")) return {};
   return "a stored state is of " + std::to_string(kStateFrames) + " frames, this run has " +
          std::to_string(static_cast<int>(number_at(scene, "/frames")));
 }
 
-std::string name_of(const Figures& scene) {
+std::string state_key(const Figures& scene) {
   return "state/" + text_at(scene, "/scene") + "/" + text_at(scene, "/preset") + "/" +
          std::to_string(static_cast<int>(number_at(scene, "/state/frames")));
 }
 
-Verdict judge_state(const Figures& scene, const StateHashes& book, const std::string& file) {
+Verdict check_state(const Figures& scene, const StateHashes& book, const std::string& file) {
   Verdict verdict{text_at(scene, "/scene"), "state", Outcome::kFailed, {}};
   verdict.seconds = 1e-3 * number_at(scene, "/frame/mean_ms") * number_at(scene, "/frames") *
                     std::max(1.0, number_at(scene, "/repeats"));
   if (differs(scene)) {
     verdict.text = kDiffers;
-  } else if (verdict.text = not_held(scene); !verdict.text.empty()) {
+  } else if (verdict.text = reason_not_checked(scene); !verdict.text.empty()) {
     verdict.outcome = Outcome::kSkipped;
-  } else if (const auto known = book.find(name_of(scene)); known == book.end()) {
-    verdict.text = file + " has no " + name_of(scene) + "; --accept stores it";
+  } else if (const auto known = book.find(state_key(scene)); known == book.end()) {
+    verdict.text = file + " has no " + state_key(scene) + "; --accept stores it";
   } else if (known->second != text_at(scene, "/state/hash")) {
-    verdict.text = name_of(scene) + " is " + text_at(scene, "/state/hash") + ", and " +
+    verdict.text = state_key(scene) + " is " + text_at(scene, "/state/hash") + ", and " +
                    known->second + " in " + file +
                    ": something else is simulated; if that is right, --accept stores it";
   } else {
     verdict.outcome = Outcome::kPassed;
-    verdict.text = name_of(scene) + " is " + known->second + ", as stored";
+    verdict.text = state_key(scene) + " is " + known->second + ", as stored";
   }
   return verdict;
 }
@@ -57,15 +57,15 @@ Verdict judge_state(const Figures& scene, const StateHashes& book, const std::st
 std::vector<Verdict> compare_states(std::span<const Figures> scenes, const StateHashes& book,
                                     const std::string& file) {
   std::vector<Verdict> verdicts;
-  for (const Figures& scene : scenes) verdicts.push_back(judge_state(scene, book, file));
+  for (const Figures& scene : scenes) verdicts.push_back(check_state(scene, book, file));
   return verdicts;
 }
 
 void accept_states(std::span<const Figures> scenes, StateHashes& book) {
   for (const Figures& scene : scenes) {
-    const std::string why = differs(scene) ? kDiffers : not_held(scene);
+    const std::string why = differs(scene) ? kDiffers : reason_not_checked(scene);
     if (!why.empty()) throw InputError("--accept: " + text_at(scene, "/scene") + ": " + why);
-    book[name_of(scene)] = text_at(scene, "/state/hash");
+    book[state_key(scene)] = text_at(scene, "/state/hash");
   }
 }
 

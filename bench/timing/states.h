@@ -1,5 +1,5 @@
-// Whether runs simulate what they are known to: a faster run that simulates something else is no
-// faster run.
+// Comparison of the state hashes of timed runs with stored ones, because times of a run that
+// simulates something else cannot be compared.
 #pragma once
 
 #include <span>
@@ -12,13 +12,14 @@
 
 namespace sunder::bench {
 
-/// One for each scene. A run that was changed by --set or is too short has no stored state to be
-/// held against, and is skipped; any other that has none fails. `file` is what the book is called.
+/// Returns a verdict for each scene. Runs that were changed by --set or are too short have no
+/// stored hash and are skipped; others without one fail. `file` names the file of hashes in
+/// messages.
 std::vector<Verdict> compare_states(std::span<const Figures> scenes, const StateHashes& book,
                                     const std::string& file);
 
-/// Puts the state of every scene into the book. Throws InputError for one that compare_states()
-/// would skip, or whose repeats differ.
+/// Stores the state hash of every scene. Throws InputError for a run that compare_states() skips,
+/// and for one whose repeats differ.
 void accept_states(std::span<const Figures> scenes, StateHashes& book);
 
 }  // namespace sunder::bench

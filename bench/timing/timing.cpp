@@ -20,14 +20,14 @@
 namespace sunder::bench {
 namespace {
 
-/// Of this process, at its most.
+/// Peak resident memory of this process.
 double memory_MB() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
 }
 
-/// What of a run is kept for every frame: a page needs no more of it.
+/// Returns true for values to keep: all except the work items of frames, which reports do not use.
 bool is_kept(const std::string& place) {
   return !place.starts_with("/per_frame/") || place.find("/work/") == std::string::npos;
 }
@@ -38,7 +38,7 @@ double median_at(std::span<const Figures> runs, const std::string& place) {
   return quantile(values, 0.5);
 }
 
-/// Largest less least, over the median.
+/// Returns the largest less the least mean processor time of a frame, divided by the median.
 double spread_of(std::span<const Figures> runs) {
   const std::string place = "/frame/cpu_mean_ms";
   const auto less = [&](const Figures& a, const Figures& b) {
@@ -49,8 +49,8 @@ double spread_of(std::span<const Figures> runs) {
   return median > 0 ? (number_at(*largest, place) - number_at(*least, place)) / median : 0;
 }
 
-/// Of every frame what it says at that place within it.
-std::vector<double> of_frames(const Figures& scene, const std::string& place) {
+/// Returns the value at `place` of every frame.
+std::vector<double> frame_values(const Figures& scene, const std::string& place) {
   std::vector<double> values;
   for (int i = 0;; ++i) {
     const std::string at = "/per_frame/" + std::to_string(i) + place;
@@ -68,14 +68,14 @@ void put_times(const std::string& at, const std::vector<double>& ms, Figures& sc
       std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
 }
 
-/// The times of stages and of all of them, from those of every frame.
+/// Computes the times of stages and of the frame from those of single frames.
 void put_times(Figures& scene) {
   for (const bool is_cpu : {true, false}) {
     const std::string clock = is_cpu ? "cpu_" : "";
     std::vector<double> all_ms;
     for (const std::string stage : kStageNames) {
-      const auto ms = of_frames(scene, (is_cpu ? "/stages_cpu_ms/" : "/stages_ms/") + stage);
-      if (ms.empty()) break;  // older than the clock
+      const auto ms = frame_values(scene, (is_cpu ? "/stages_cpu_ms/" : "/stages_ms/") + stage);
+      if (ms.empty()) break;  // file of an older version
       put_times("/stages/" + stage + "/" + clock, ms, scene);
       all_ms.resize(ms.size());
       std::ranges::transform(all_ms, ms, all_ms.begin(), std::plus());
@@ -84,7 +84,7 @@ void put_times(Figures& scene) {
   }
 }
 
-/// The mean of every run, by stage and for the frame, in processor and in wall time.
+/// Adds the mean of every run, by stage and for the frame, in processor and wall time.
 void put_repeats(std::span<const Figures> runs, Figures& scene) {
   const auto put = [&](const std::string& stage, const std::string& at) {
     for (const bool is_cpu : {true, false}) {

@@ -1,8 +1,8 @@
-// A scene's timing: several runs of it, each in a process of its own, become one object, the one of
-// `sunder simulate --json` with the median over the runs of every number in it.
+// Timing of a scene. Several runs, each in a process of its own, are combined into one object: that
+// of `sunder simulate --json` with the median over the runs of every number.
 //
-// Read first: time_run(), then median_of(). All that is reported is made of these objects, so a
-// file of them can be looked at again without running anything.
+// Begin at time_run(), then median_of(). All reports are made from these objects, so that they can
+// be made again from a file without another run.
 #pragma once
 
 #include <span>
@@ -14,34 +14,34 @@
 
 namespace sunder::bench {
 
-/// Frames that a stored state hash is over, or all of a scene that ends before.
+/// Number of frames of a stored state hash; shorter scenes have the hash over all their frames.
 inline constexpr int kStateFrames = 200;
 
 struct TimedRun {
   std::string scene;  ///< File or name.
   scenes::LoadOptions load;
-  int frames = kStateFrames;  ///< Or as many as the scene has.
-  std::string without;        ///< A feature that is turned off (scenes/features.h); none if empty.
+  int frames = kStateFrames;  ///< Limited by the number of frames of the scene.
+  std::string without;        ///< Feature that is turned off (scenes/features.h); empty for none.
 };
 
-/// Index of the last frame of a scene.
+/// Returns the index of the last frame of a scene.
 int last_frame(const Scene& scene);
-/// The scene as the run has it. Throws InputError.
+/// Loads the scene with the options of the run. Throws InputError.
 Scene load_scene(const TimedRun& run);
-/// Carries it out, in this process, whose peak memory is the run's. Beside what Statistics say:
-/// `set`, `memory_MB`, and in `state` the hash over `frames`, kStateFrames or all there are; absent
-/// if the run is shorter.
+/// Simulates the run in this process, whose peak memory becomes that of the run. Returns the object
+/// of Statistics with three additions: `set`, `memory_MB`, and in `state` the hash over `frames`
+/// frames (kStateFrames, or all of a shorter scene). `state` is absent if the run is shorter.
 Figures time_run(const TimedRun& run, bool warn);
 
-/// Of runs of the same: the median of every number, the first run's texts; times of stages are of
-/// the frames' medians, as every frame does the same in every run, and what disturbs one does not
-/// disturb the same in most. And over the runs `repeats`, `spread` (largest less least over the
-/// median, of the processor time of all frames), `repeat_ms`, by stage and clock the mean of every
-/// run, and `differs`, true if their states do.
+/// Combines runs of the same scene: numbers are medians and texts are those of the first run. Times
+/// of stages are computed from the median of each frame, which disturbances of single runs change
+/// little, since all runs simulate the same. Adds `repeats`, `spread` (largest less least, over the
+/// median, of the mean processor time of a frame), `repeat_ms` (mean of every run by stage and
+/// clock), and `differs` (true if state hashes differ).
 Figures median_of(std::span<const Figures> runs);
 
-/// The document {"scenes": [...]}, and back: also the object of `sunder simulate --json`. Throws
-/// InputError naming `file` if it is neither.
+/// Convert between scenes and the document {"scenes": [...]}. scenes_of() also accepts the object
+/// of `sunder simulate --json`, and throws InputError naming `file` for any other document.
 Figures document_of(std::span<const Figures> scenes);
 std::vector<Figures> scenes_of(const Figures& document, const std::string& file);
 

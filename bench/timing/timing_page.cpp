@@ -1,4 +1,4 @@
-// The page of a timing.
+// HTML page of a timing.
 #include <algorithm>
 #include <numeric>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kBins = 12;
 
-/// Milliseconds of every frame: all of it first, then stage by stage.
+/// Returns the milliseconds of every frame: their sum first, then one curve per stage.
 std::vector<Curve> frames_of(const Figures& scene, const std::string& clock) {
   std::vector<Curve> curves = {{"frame", {}}};
   for (const char* stage : kStageNames) curves.push_back({stage, {}});

@@ -1,4 +1,4 @@
-// What was timed, for people: data in, text out.
+// Reports of timings for people, as text for the terminal and as an HTML page.
 #pragma once
 
 #include <span>
@@ -11,27 +11,27 @@
 
 namespace sunder::bench {
 
-/// For the terminal: of each scene its stages, in processor and in wall time, and its counts.
+/// Returns the stages of each scene, in processor and wall time, and its counts, for the terminal.
 std::string timing_table(std::span<const Figures> scenes);
-/// What each feature that was turned off saves; empty if none was.
+/// Returns the time of each feature that was turned off in a further run; empty if there was none.
 std::string features_table(std::span<const Figures> scenes);
-/// A line for each that failed; or for each other, but stages that are well.
+/// Returns a line for each failed verdict, or for each other one, without stages that passed.
 std::string verdict_lines(std::span<const Verdict> verdicts, bool failed);
 
-/// All of it on one page that needs nothing beside it, with every stage of every frame plotted.
+/// Returns a self-contained HTML page with all results and plots of every stage of every frame.
 std::string timing_page(std::span<const Figures> scenes, std::span<const Verdict> verdicts,
                         std::span<const Change> changes);
 
-/// A feature in a scene that was run without it: what of the processor a frame takes.
+/// A feature, with the processor time per frame of the scene with and without it.
 struct Saving {
   std::string feature;
   double with_ms = 0, without_ms = 0;
 };
 std::vector<Saving> savings_of(const Figures& scene);
 
-/// "1 thread, 200 frames" and so on.
+/// Returns the settings of the run: "realtime, 200 frames, 1 thread" and so on.
 std::string run_line(const Figures& scene);
-/// What there was at most: bodies, awake, pieces, chips, puffs, memory.
+/// Returns peak numbers of bodies and particles, peak memory, and numbers of breaks and pieces.
 std::string counts_line(const Figures& scene);
 
 }  // namespace sunder::bench

@@ -1,4 +1,4 @@
-// The tables of a timing on a terminal.
+// Tables of a timing for the terminal.
 #include "bench/timing/timing_report.h"
 #include "engine/base/printed.h"
 #include "engine/io/page.h"

@@ -12,13 +12,15 @@ namespace {
 
 std::string quoted(const std::string& text) { return "\"" + escaped(text) + "\""; }
 
-/// Attribute of what is known.
-std::string time(double seconds) { return seconds > 0 ? printed(" time=\"%.3f\"", seconds) : ""; }
+/// Returns the attribute `time`; empty if the duration is unknown.
+std::string time_attribute(double seconds) {
+  return seconds > 0 ? printed(" time=\"%.3f\"", seconds) : "";
+}
 
 std::string test_case(const std::string& command, const Verdict& verdict) {
   const std::string head =
       "    <testcase classname=" + quoted("sunder." + command + "." + verdict.scene) +
-      " name=" + quoted(verdict.what) + time(verdict.seconds);
+      " name=" + quoted(verdict.what) + time_attribute(verdict.seconds);
   switch (verdict.outcome) {
     case Outcome::kFailed:
       return head + "><failure message=" + quoted(verdict.text) + "/></testcase>\n";
@@ -38,7 +40,7 @@ std::string counts(std::span<const Verdict> verdicts) {
   for (const Verdict& verdict : verdicts) seconds += verdict.seconds;
   return " tests=" + quoted(std::to_string(verdicts.size())) +
          " failures=" + count(Outcome::kFailed) + " skipped=" + count(Outcome::kSkipped) +
-         time(seconds);
+         time_attribute(seconds);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Something that was looked at, and what came of it.
+// Results of checks, and their JUnit report.
 #pragma once
 
 #include <span>
@@ -8,16 +8,16 @@ namespace sunder::bench {
 
 enum class Outcome { kPassed, kFailed, kSkipped };
 
+/// A check and its result.
 struct Verdict {
-  std::string scene;  ///< Or golden.
-  std::string what;   ///< "state", "stage solve", "drawing" and so on; once a scene.
+  std::string scene;  ///< Scene or golden that was checked.
+  std::string what;   ///< Check, unique within a scene: "state", "stage solve" and so on.
   Outcome outcome = Outcome::kPassed;
-  std::string text;    ///< Why, in a sentence.
-  double seconds = 0;  ///< That it took to find out; 0: not known.
+  std::string text;    ///< Reason, in a sentence.
+  double seconds = 0;  ///< Duration of the check; 0 if unknown.
 };
 
-/// All of them as JUnit has it: XML, a suite a scene. `command` is that of the program which
-/// looked.
+/// Returns JUnit XML with a suite per scene. `command` is the subcommand that made the checks.
 std::string junit_xml(const std::string& command, std::span<const Verdict> verdicts);
 
 }  // namespace sunder::bench

@@ -15,20 +15,20 @@
 namespace sunder::bench {
 namespace {
 
-constexpr double kNoticed = 0.01;  // of what there is
-constexpr std::pair<std::string_view, double> kUnseen[] = {{"penetration worst m", 1e-2},
-                                                           {" m", 1e-3},
-                                                           {" m/s", 0.01},
-                                                           {" rad/s", 0.01},
-                                                           {" share", 0.01},
-                                                           {" J/kg", 0.01},
-                                                           {"pieces", 1}};
-constexpr int kSplits = 64;       // of the reference's seeds into halves
-constexpr double kUsually = 0.9;  // of pairs differ by less than the noise
+constexpr double kRelativeFloor = 0.01;  // relative to the mean magnitude
+constexpr std::pair<std::string_view, double> kUnitFloors[] = {{"penetration worst m", 1e-2},
+                                                               {" m", 1e-3},
+                                                               {" m/s", 0.01},
+                                                               {" rad/s", 0.01},
+                                                               {" share", 0.01},
+                                                               {" J/kg", 0.01},
+                                                               {"pieces", 1}};
+constexpr int kSplits = 64;             // random halves of the reference's seeds
+constexpr double kNoiseQuantile = 0.9;  // of pairs that differ by less than the noise
 
 using Samples = std::vector<double>;
 
-/// Of the runs that have any, by name: one vector a run.
+/// Returns, by name, the samples of each run that has any.
 std::map<std::string, std::vector<Samples>> by_name(std::span<const Facts> runs) {
   std::map<std::string, std::vector<Samples>> all;
   for (const Facts& facts : runs)
@@ -43,8 +43,8 @@ Samples pooled(std::span<const Samples> runs) {
   return all;
 }
 
-/// What two sets of `point` and of all seeds of the reference differ by.
-double scatter(std::vector<Samples> reference, std::size_t point) {
+/// Returns the difference due to chance of `point` seeds from all seeds of the reference.
+double chance_difference(std::vector<Samples> reference, std::size_t point) {
   const std::size_t half = reference.size() / 2;
   if (half == 0) return 0;
   Random random(1);
@@ -59,7 +59,7 @@ double scatter(std::vector<Samples> reference, std::size_t point) {
   }
   const double sets =
       1.0 / static_cast<double>(point) + 1.0 / static_cast<double>(reference.size());
-  return quantile(distances, kUsually) * std::sqrt(sets * static_cast<double>(half) / 2);
+  return quantile(distances, kNoiseQuantile) * std::sqrt(sets * static_cast<double>(half) / 2);
 }
 
 }  // namespace
@@ -90,9 +90,9 @@ double noise_floor(std::string_view name, std::span<const double> reference) {
   for (const double sample : reference) sum += std::abs(sample);
   const double mean = reference.empty() ? 0 : sum / static_cast<double>(reference.size());
   const auto unit =
-      std::ranges::find_if(kUnseen, [&](const auto& one) { return name.ends_with(one.first); });
-  SUNDER_CHECK(unit != std::end(kUnseen));
-  return std::max(kNoticed * mean, unit->second);
+      std::ranges::find_if(kUnitFloors, [&](const auto& one) { return name.ends_with(one.first); });
+  SUNDER_CHECK(unit != std::end(kUnitFloors));
+  return std::max(kRelativeFloor * mean, unit->second);
 }
 
 std::vector<TradeError> trade_errors(std::span<const Facts> point,
@@ -105,7 +105,7 @@ std::vector<TradeError> trade_errors(std::span<const Facts> point,
     if (at == found.end()) continue;
     const Samples all = pooled(runs);
     TradeError error{name, distance_between(pooled(at->second), all)};
-    error.noise = std::max(scatter(runs, at->second.size()), noise_floor(name, all));
+    error.noise = std::max(chance_difference(runs, at->second.size()), noise_floor(name, all));
     error.over_noise = error.distance / error.noise;
     errors.push_back(std::move(error));
   }

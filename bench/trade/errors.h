@@ -1,5 +1,4 @@
-// How far runs at one point of a study are from the reference, in parts of what nobody can tell
-// apart.
+// Errors of a point of a study, relative to the noise of the reference. Begin at trade_errors().
 #pragma once
 
 #include <span>
@@ -11,33 +10,33 @@
 
 namespace sunder::bench {
 
-/// One quantity: how far it is from the reference's, over seeds.
+/// Distance of one measured quantity from the reference, over all seeds.
 struct TradeError {
-  std::string name;     ///< Of the facts' samples.
-  double distance = 0;  ///< In the unit of the quantity.
-  double noise = 0;     ///< What as many seeds of the reference scatter by, or, of a scene without
-                        ///< chaos, the floor below which a difference means nothing.
-  double over_noise = 0;  ///< distance / noise: 1 is not to be told from another seed.
+  std::string name;       ///< Name in Facts::samples.
+  double distance = 0;    ///< In the unit of the quantity.
+  double noise = 0;       ///< Difference of seeds of the reference, at least noise_floor().
+  double over_noise = 0;  ///< distance / noise; up to 1 is within the scatter of seeds.
 };
 
-/// ∫ |F − G|: how far samples have to be moved, on average, to become the other (1-Wasserstein).
-/// Neither is empty; of what is not finite, infinite.
+/// Returns ∫ |F − G| of the distribution functions, that is, the mean distance by which samples
+/// must be moved to become the others (1-Wasserstein). Neither list is empty. The result is
+/// infinite if a sample is not finite.
 double distance_between(std::vector<double> a, std::vector<double> b);
 
-/// The difference that nobody would notice: 1 % of what there is, or, by the unit that ends the
-/// name, what is too small to see: 1 mm, which is a tenth of a pixel where a picture shows ten
-/// metres, or 1 cm for the deepest of all overlaps, which is there for one frame; 1 cm/s; a
-/// hundredth of a share, of a radian a second, of a joule a kilogram (all of it 1 mm higher); one
+/// Returns the least difference that counts: the larger of 1 % of the mean magnitude and a value by
+/// the unit that ends the name: 1 mm (a tenth of a pixel in a picture of ten metres), but 1 cm for
+/// the deepest penetration (of one frame); 0.01 m/s, rad/s, share or J/kg (a rise of 1 mm); one
 /// piece.
 double noise_floor(std::string_view name, std::span<const double> reference);
 
-/// Of every quantity that both have samples of: the distance between all samples of the point and
-/// all of the reference. Each span holds the facts of one run a seed, the reference's at least one.
-/// Its noise is what nine in ten pairs of sets of as many seeds of the reference differ by less
-/// than, judged by its halves and scaled by the root of the seeds.
+/// Returns an error for every quantity with samples in both lists: the distance between all samples
+/// of the point and all of the reference. Each list has the facts of one run per seed; that of the
+/// reference is not empty. Noise is the difference that nine in ten pairs of sets with as many
+/// seeds of the reference do not exceed, estimated from random halves of the reference and scaled
+/// by the square root of the number of seeds.
 std::vector<TradeError> trade_errors(std::span<const Facts> point,
                                      std::span<const Facts> reference);
-/// The largest over its noise; 0 of nothing.
+/// Returns the largest error over its noise; 0 for no errors.
 double worst(std::span<const TradeError> errors);
 
 }  // namespace sunder::bench

@@ -1,4 +1,4 @@
-// What one run of a scene came to, as far as accuracy goes: what two runs are compared by.
+// Measurements of a run by which a study compares accuracy.
 #pragma once
 
 #include <map>
@@ -10,44 +10,45 @@
 
 namespace sunder::bench {
 
-/// What was measured, by name, in SI units: a number is a sample of one, "size of pieces m" has one
-/// for each piece. A name ends in its unit. Ordered, so that it is written down alike everywhere.
+/// Samples of a run by name, in SI units. A single value has one sample, "size of pieces m" has one
+/// for each piece. A name ends in its unit. Sorted by name, so that files are equal everywhere.
 struct Facts {
   std::map<std::string, std::vector<double>> samples;
   std::string state_hash;
 };
 
-/// Collects the facts of the frames that it takes; keeps the first of them and the last.
+/// Measures the frames of a run; keeps the first and the last frame.
 ///
-/// | fact | what |
+/// | fact | meaning |
 /// |---|---|
-/// | penetration p99, worst m | of all contacts that pressed, in all frames |
-/// | drift, drift largest m | way of what moves and stands |
-/// | surface in place share | of the surface at the start, what stands |
-/// | energy after 1/4, 1/2, 1 J/kg | kinetic, potential and plastic, over all there is |
-/// | energy gained J/kg | summed rises from frame to frame while nothing broke, came or went |
-/// | momentum residual share | the frame's report, at its worst |
-/// | speed m/s, spin rad/s | of what moves, every half second |
+/// | penetration p99, worst m | penetration of all contacts with an impulse, in all frames |
+/// | drift, drift largest m | displacement of dynamic bodies that stand |
+/// | surface in place share | surface of bodies that stand, over all surface at the start |
+/// | energy after 1/4, 1/2, 1 J/kg | kinetic, potential and plastic, over all mass |
+/// | energy gained J/kg | sum of rises between frames without breaks, new or removed bodies |
+/// | momentum residual share | largest FrameReport::momentum_residual |
+/// | speed m/s, spin rad/s | of dynamic bodies, every half second |
 /// | exit speed m/s | of each striker |
-/// | pieces | bodies at the end that were not there at the start, strikers aside |
-/// | size of pieces m | from a piece's centre to its farthest corner |
-/// | run-out m | over ground, of pieces and what no longer stands, from the middle at the start |
+/// | pieces | bodies at the end that did not exist at the start, without strikers |
+/// | size of pieces m | distance from a piece's centre to its farthest corner |
+/// | run-out m | horizontal distance of pieces and fallen bodies from the centre at the start |
 ///
-/// What stands is a body of the first frame that is now within a tenth of its size of where it was;
-/// what is whole and near but struck counts, since frames do not say who was. A striker is a body
-/// faster than 5 m/s when it is first seen, in a frame without breaks; its exit speed is that .2 s
-/// after the first frame that took a tenth of its speed. What there is too little of to measure has
-/// no sample. Angular momentum is not here: frames know neither inertia nor what the ground turned.
+/// A body of the first frame stands if it has moved by at most a tenth of its size; frames do not
+/// tell whether it was hit. A striker is a body faster than 5 m/s when it first appears, in a frame
+/// without breaks; its exit speed is that 0.2 s after the first frame in which it lost a tenth of
+/// its speed. A fact without values has no sample. Angular momentum is not measured, since frames
+/// have neither inertias nor the torque of the ground.
 class FactsSink final : public FrameSink {
  public:
   FactsSink();
   ~FactsSink() override;
   void take(const FramePtr& frame) override;
+  /// Returns the facts of the frames taken so far.
   Facts facts() const;
 
  private:
-  struct Watch;
-  std::unique_ptr<Watch> watch_;
+  struct Collector;
+  std::unique_ptr<Collector> collector_;
 };
 
 }  // namespace sunder::bench

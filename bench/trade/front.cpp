@@ -9,9 +9,9 @@
 namespace sunder::bench {
 namespace {
 
-constexpr double kNone = 1e-12;  // an error that is as good as none, for its logarithm
+constexpr double kMinError = 1e-12;  // least error, for its logarithm
 
-double log_error(const TradePoint& point) { return std::log(std::max(point.error, kNone)); }
+double log_error(const TradePoint& point) { return std::log(std::max(point.error, kMinError)); }
 
 }  // namespace
 
@@ -35,7 +35,7 @@ double over_front(std::span<const TradePoint> points, std::size_t i) {
   const std::vector<std::size_t> front = pareto_front(points);
   const auto after =
       std::ranges::find_if(front, [&](std::size_t k) { return points[k].error <= point.error; });
-  const TradePoint& better = points[*after];  // the point itself at least is no worse
+  const TradePoint& better = points[*after];  // exists: the last one has the least error
   if (after == front.begin()) return point.cost_ms / better.cost_ms;
   const TradePoint& worse = points[*std::prev(after)];
   const double share =

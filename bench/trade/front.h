@@ -1,4 +1,4 @@
-// Which points of a study nobody should choose, as another is cheaper and better.
+// Pareto front of a study's points: those that no other point beats in both cost and error.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace sunder::bench {
 
-/// One point of a study's grid on one scene.
+/// A point of the study's grid on one scene.
 struct TradePoint {
   std::string name;
   bool is_preset = false;
@@ -16,13 +16,13 @@ struct TradePoint {
   double error = 0;
 };
 
-/// The points that no other beats, both in cost and in error, cheapest first; of equal ones, the
+/// Returns the points that no other beats in both cost and error, cheapest first; of equals, the
 /// first.
 std::vector<std::size_t> pareto_front(std::span<const TradePoint> points);
 
-/// The cost of point i over that of the front at equal error, by straight lines through its points
-/// in logarithms of both; 1 on the front. A point worse than the cheapest is held against that. Of
-/// costs above 0.
+/// Returns the cost of point i divided by the cost of the front at equal error; 1 on the front. The
+/// front is interpolated linearly in the logarithms of cost and error. A point with a larger error
+/// than the cheapest is compared with the cheapest. Costs must be above 0.
 double over_front(std::span<const TradePoint> points, std::size_t i);
 
 }  // namespace sunder::bench

@@ -1,4 +1,4 @@
-// The grid of points that a study has when it is given no other, compiled in (sunder_embed).
+// Default grid of points of a study, compiled in from grid.txt (sunder_embed).
 #pragma once
 
 namespace sunder::bench::grid {

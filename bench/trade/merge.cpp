@@ -11,29 +11,29 @@
 namespace sunder::bench {
 namespace {
 
-/// The runs of a point on one scene that are there.
-struct Found {
+/// Existing runs of a point on one scene.
+struct PointRuns {
   StudyPoint point;
-  std::vector<Facts> facts;  ///< Of those that did not fail.
+  std::vector<Facts> facts;  ///< Facts of the runs that did not fail.
   std::vector<double> cpu_ms, wall_ms;
   std::string failed;
 };
 
-struct FoundScene {
+struct SceneRuns {
   std::string scene;
-  std::vector<Found> points;
+  std::vector<PointRuns> points;
 };
 
-Found& found_at(std::vector<FoundScene>& scenes, const StudyRun& run) {
+PointRuns& find_or_add(std::vector<SceneRuns>& scenes, const StudyRun& run) {
   if (scenes.empty() || scenes.back().scene != run.scene) scenes.push_back({run.scene, {}});
-  std::vector<Found>& points = scenes.back().points;
-  const auto at = std::find_if(points.begin(), points.end(), [&](const Found& found) {
+  std::vector<PointRuns>& points = scenes.back().points;
+  const auto at = std::find_if(points.begin(), points.end(), [&](const PointRuns& found) {
     return found.point.name == run.point.name;
   });
-  return at != points.end() ? *at : points.emplace_back(Found{run.point, {}, {}, {}, {}});
+  return at != points.end() ? *at : points.emplace_back(PointRuns{run.point, {}, {}, {}, {}});
 }
 
-PointTrade trade_of(const Found& found, std::span<const Facts> limit) {
+PointTrade evaluate(const PointRuns& found, std::span<const Facts> limit) {
   PointTrade trade;
   trade.point = found.point;
   trade.runs = static_cast<int>(found.cpu_ms.size());
@@ -48,28 +48,29 @@ PointTrade trade_of(const Found& found, std::span<const Facts> limit) {
   return trade;
 }
 
-/// Only what has an error can be on the front; the limit is what errors are measured from.
+/// Finds the front among the points with a finite error, except the limit, and costs relative to
+/// it.
 void find_front(std::vector<PointTrade>& trades) {
   std::vector<TradePoint> points;
-  std::vector<PointTrade*> of_point;
+  std::vector<PointTrade*> trade_at;
   for (PointTrade& trade : trades) {
     if (trade.point.is_limit() || !trade.error || !std::isfinite(*trade.error)) continue;
     points.push_back({trade.point.name, trade.point.is_preset(), trade.cost_ms, *trade.error});
-    of_point.push_back(&trade);
+    trade_at.push_back(&trade);
   }
-  for (const std::size_t i : pareto_front(points)) of_point[i]->on_front = true;
-  for (std::size_t i = 0; i < points.size(); ++i) of_point[i]->over_front = over_front(points, i);
+  for (const std::size_t i : pareto_front(points)) trade_at[i]->on_front = true;
+  for (std::size_t i = 0; i < points.size(); ++i) trade_at[i]->over_front = over_front(points, i);
 }
 
-SceneTrade trade_of(const FoundScene& found) {
+SceneTrade evaluate(const SceneRuns& found) {
   SceneTrade scene;
   scene.scene = found.scene;
   std::span<const Facts> limit;
-  for (const Found& point : found.points) {
+  for (const PointRuns& point : found.points) {
     if (point.point.is_limit()) limit = point.facts;
   }
-  for (const Found& point : found.points) {
-    if (!point.cpu_ms.empty()) scene.points.push_back(trade_of(point, limit));
+  for (const PointRuns& point : found.points) {
+    if (!point.cpu_ms.empty()) scene.points.push_back(evaluate(point, limit));
   }
   find_front(scene.points);
   return scene;
@@ -80,9 +81,9 @@ SceneTrade trade_of(const FoundScene& found) {
 Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder) {
   Trade trade;
   trade.runs = runs.size();
-  std::vector<FoundScene> scenes;
+  std::vector<SceneRuns> scenes;
   for (const StudyRun& run : runs) {
-    Found& found = found_at(scenes, run);
+    PointRuns& found = find_or_add(scenes, run);
     const StoredRun stored = read_run(folder, run);
     if (!stored.missing.empty()) {
       trade.missing.push_back(run.name() + (stored.damaged ? " (" + stored.missing + ")" : ""));
@@ -97,7 +98,7 @@ Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& fold
       found.failed = "seed " + std::to_string(run.seed) + ": " + result.failed;
     }
   }
-  for (const FoundScene& scene : scenes) trade.scenes.push_back(trade_of(scene));
+  for (const SceneRuns& scene : scenes) trade.scenes.push_back(evaluate(scene));
   return trade;
 }
 

@@ -1,4 +1,4 @@
-// From the runs of a study to what its points cost and how wrong they are.
+// Costs and errors of a study's points, from the files of its runs.
 #pragma once
 
 #include <filesystem>
@@ -11,33 +11,32 @@
 
 namespace sunder::bench {
 
-/// A point on one scene.
+/// Result of a point on one scene.
 struct PointTrade {
   StudyPoint point;
-  int runs = 0;        ///< That there are, the failed ones included.
-  double cost_ms = 0;  ///< Of the processor a frame: the median over seeds.
-  double wall_ms = 0;  ///< The same by the clock on the wall.
+  int runs = 0;        ///< Number of runs that exist, with failed ones.
+  double cost_ms = 0;  ///< Processor time per frame, median over seeds.
+  double wall_ms = 0;  ///< Wall time per frame, median over seeds.
   std::vector<TradeError> errors;
-  /// The largest over its noise; infinite where a run failed, none where there is nothing to hold
-  /// it against, as for the limit itself.
+  /// Largest error over its noise; infinite if a run failed; nothing if there is no reference.
   std::optional<double> error;
-  std::string failed;  ///< Why a run did; empty if none.
+  std::string failed;  ///< Reason of the first failure; empty if no run failed.
   bool on_front = false;
-  std::optional<double> over_front;  ///< Cost over that of the front at equal error.
+  std::optional<double> over_front;  ///< Cost divided by that of the front at equal error.
 };
 
 struct SceneTrade {
   std::string scene;
-  std::vector<PointTrade> points;  ///< Those with runs, in the order of the study.
+  std::vector<PointTrade> points;  ///< Points with runs, in the order of the study.
 };
 
 struct Trade {
   std::vector<SceneTrade> scenes;
-  std::vector<std::string> missing;  ///< Names of runs, and why in brackets unless not done.
-  std::size_t runs = 0;              ///< That there should be.
+  std::vector<std::string> missing;  ///< Names of missing runs, with the reason if a file exists.
+  std::size_t runs = 0;              ///< Number of runs of the study.
 };
 
-/// What lies in the folder of a study with these runs.
+/// Reads the runs of a study from its folder.
 Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder);
 
 }  // namespace sunder::bench

@@ -32,7 +32,7 @@ void check_preset(const std::string& preset, const std::string& where) {
   throw InputError(where + ": unknown preset '" + preset + "'; allowed: " + names);
 }
 
-/// The point that a line describes; no name if it describes none.
+/// Parses a line; the point has no name if the line is empty.
 StudyPoint parse_line(const std::string& line, const std::string& where) {
   std::istringstream words(line.substr(0, line.find('#')));
   StudyPoint point;
@@ -51,7 +51,7 @@ StudyPoint parse_line(const std::string& line, const std::string& where) {
   return point;
 }
 
-/// Points in order, but the limit at the end.
+/// Returns the points in the order of the text, except that the limit is last.
 std::vector<StudyPoint> parse_lines(const std::string& text, const std::string& file) {
   std::vector<StudyPoint> points;
   std::set<std::string> seen;

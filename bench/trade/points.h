@@ -1,4 +1,4 @@
-// The points of a study: how exactly a scene is run, from coarse to fine.
+// Points of a study: the settings at which a scene is run, from coarse to fine.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace sunder::bench {
 
-/// The point that all others are held against.
+/// Name of the point that is the reference for all others.
 inline constexpr const char* kLimit = "limit";
 
 struct StudyPoint {
@@ -18,13 +18,13 @@ struct StudyPoint {
   bool is_limit() const { return name == kLimit; }
 };
 
-/// Points as grid.txt describes them; the limit is the last, that of default_points() if the text
-/// has none. Throws InputError naming file and line.
+/// Parses points in the format of grid.txt. The limit becomes the last point; without one in the
+/// text, it is that of default_points(). Throws InputError naming file and line.
 std::vector<StudyPoint> parse_points(const std::string& text, const std::string& file);
 std::vector<StudyPoint> default_points();
 
-/// For each preset among the points, the same with this key=value of the scene, before the limit:
-/// what it costs to model something, and what it is worth.
+/// Inserts before the limit, for each preset among the points, a copy with this key=value of the
+/// scene, to measure cost and accuracy of a feature.
 void add_switch(std::vector<StudyPoint>& points, const std::string& assignment);
 
 }  // namespace sunder::bench

@@ -10,7 +10,7 @@
 namespace sunder::bench {
 namespace {
 
-/// Nothing for what is not known.
+/// Returns the number as text; empty for no value.
 std::string digits(const std::optional<double>& value, int count = 9) {
   if (!value) return {};
   char text[40];
@@ -18,7 +18,7 @@ std::string digits(const std::optional<double>& value, int count = 9) {
   return text;
 }
 
-/// A field of a CSV file (RFC 4180).
+/// Returns a field of a CSV file (RFC 4180).
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string safe = "\"";
@@ -38,7 +38,7 @@ const TradeError* find_error(const PointTrade& point, const std::string& name) {
   return at == point.errors.end() ? nullptr : &*at;
 }
 
-/// The largest error of a point over its noise; null if it has none.
+/// Returns the largest error of a point over its noise; null if it has none.
 const TradeError* worst_of(const PointTrade& point) {
   const auto at = std::max_element(
       point.errors.begin(), point.errors.end(),
@@ -46,15 +46,15 @@ const TradeError* worst_of(const PointTrade& point) {
   return at == point.errors.end() ? nullptr : &*at;
 }
 
-/// "drift 0.012 m": the name of an error ends with its unit, or is one, as "pieces".
-std::string in_its_unit(const TradeError& error) {
+/// Returns "drift 0.012 m": the name of an error ends with its unit, or is one, as "pieces".
+std::string format_distance(const TradeError& error) {
   const std::size_t space = error.name.rfind(' ');
   const std::string distance = digits(error.distance, 3);
   if (space == std::string::npos) return distance + " " + error.name;
   return error.name.substr(0, space) + " " + distance + error.name.substr(space);
 }
 
-/// Of all errors of all scenes.
+/// Returns the names of all errors of all scenes.
 std::set<std::string> error_names(const std::vector<SceneTrade>& scenes) {
   std::set<std::string> names;
   for (const SceneTrade& scene : scenes) {
@@ -65,7 +65,7 @@ std::set<std::string> error_names(const std::vector<SceneTrade>& scenes) {
   return names;
 }
 
-/// Figures are numbers that JSON has: what is infinite is absent.
+/// Adds a value if it is finite, because JSON has no infinite numbers.
 void put(Figures& figures, const std::string& place, const std::optional<double>& value) {
   if (value && std::isfinite(*value)) figures[place] = *value;
 }
@@ -144,7 +144,7 @@ std::string trade_table(const Trade& trade) {
       char line[200];
       const TradeError* worst = worst_of(point);
       const std::string last = !point.failed.empty() ? point.failed
-                               : worst               ? in_its_unit(*worst)
+                               : worst               ? format_distance(*worst)
                                                      : std::string();
       std::snprintf(line, sizeof line, "%-18s %-10s %12.3f %12s %11s  %s\n", scene.scene.c_str(),
                     point.point.name.c_str(), point.cost_ms, digits(point.error, 3).c_str(),

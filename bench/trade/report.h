@@ -1,4 +1,4 @@
-// What a study found, for people, for spreadsheets and for programs: data in, text out.
+// Reports of a study as CSV, JSON, SVG, HTML and text.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace sunder::bench {
 
-/// A line a point and scene, a column for each error over its noise; what is not known is empty.
+/// Returns a line per point and scene, with a column for each error over its noise.
 std::string trade_csv(const Trade& trade);
-/// The same, with distances and noise, nested.
+/// Returns all results as JSON, with distances and noise.
 std::string trade_json(const Trade& trade);
-/// The points of a scene: error over cost, the front drawn, presets named.
+/// Returns a plot of the points of a scene, error over cost, with the front and labelled presets.
 std::string trade_svg(const SceneTrade& scene);
-/// All of it on one page that needs nothing beside it.
+/// Returns a self-contained HTML page with all results.
 std::string trade_html(const Trade& trade);
-/// For the terminal.
+/// Returns a table for the terminal.
 std::string trade_table(const Trade& trade);
 
 }  // namespace sunder::bench

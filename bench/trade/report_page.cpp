@@ -1,4 +1,4 @@
-// The pictures of a report, and the page that they are on.
+// Plots and HTML page of a study.
 #include <algorithm>
 
 #include "bench/trade/report.h"
@@ -8,26 +8,30 @@
 namespace sunder::bench {
 namespace {
 
-constexpr double kFar = 1.1;  // of a preset from the front, in cost: too far
+// Presets with a larger cost relative to the front are highlighted.
+constexpr double kMaxCostRatio = 1.1;
 
-std::string shown(const std::optional<double>& value) { return value ? rounded(*value) : ""; }
+std::string format_number(const std::optional<double>& value) {
+  return value ? rounded(*value) : "";
+}
 
-std::string recipe_of(const StudyPoint& point) {
+std::string options_of(const StudyPoint& point) {
   std::string text = "--preset " + point.preset;
   for (const std::string& assignment : point.set) text += " --set " + assignment;
   return text;
 }
 
-bool is_too_far(const PointTrade& point) {
-  return point.point.is_preset() && point.over_front && *point.over_front > kFar;
+bool exceeds_cost_ratio(const PointTrade& point) {
+  return point.point.is_preset() && point.over_front && *point.over_front > kMaxCostRatio;
 }
 
 PlotPoint plotted(const PointTrade& point) {
   return {point.cost_ms, *point.error, point.point.name,
-          point.point.name + ": " + shown(point.cost_ms) + " ms, error " + shown(point.error)};
+          point.point.name + ": " + format_number(point.cost_ms) + " ms, error " +
+              format_number(point.error)};
 }
 
-/// What each preset costs over the front, scene by scene.
+/// Returns a table of each preset's cost relative to the front, by scene.
 std::string presets_table(const Trade& trade) {
   std::vector<std::string> head = {"cost over the front"};
   std::vector<std::vector<Cell>> rows;
@@ -39,8 +43,8 @@ std::string presets_table(const Trade& trade) {
           std::find(head.begin() + 1, head.end(), point.point.name) - head.begin());
       if (column == head.size()) head.push_back(point.point.name);
       if (row.size() <= column) row.resize(column + 1);
-      row[column] = {point.failed.empty() ? shown(point.over_front) : "failed",
-                     is_too_far(point) || !point.failed.empty(), point.failed};
+      row[column] = {point.failed.empty() ? format_number(point.over_front) : "failed",
+                     exceeds_cost_ratio(point) || !point.failed.empty(), point.failed};
     }
   }
   return html_table(head, rows);
@@ -49,18 +53,19 @@ std::string presets_table(const Trade& trade) {
 std::string points_table(const SceneTrade& scene) {
   std::vector<std::vector<Cell>> rows;
   for (const PointTrade& point : scene.points) {
-    rows.push_back({{point.point.name, false, recipe_of(point.point)},
-                    {shown(point.cost_ms)},
-                    {shown(point.wall_ms)},
-                    {shown(point.error), !point.failed.empty(), point.failed},
-                    {point.on_front ? "on it" : shown(point.over_front), is_too_far(point)},
-                    {std::to_string(point.runs)}});
+    rows.push_back(
+        {{point.point.name, false, options_of(point.point)},
+         {format_number(point.cost_ms)},
+         {format_number(point.wall_ms)},
+         {format_number(point.error), !point.failed.empty(), point.failed},
+         {point.on_front ? "on it" : format_number(point.over_front), exceeds_cost_ratio(point)},
+         {std::to_string(point.runs)}});
   }
   return html_table({"point", "processor ms a frame", "wall ms", "error", "over the front", "runs"},
                     rows);
 }
 
-/// A column an error, over its noise; the largest of a point is marked.
+/// Returns a table with a column per error, over its noise; the largest of a point is highlighted.
 std::string errors_table(const SceneTrade& scene) {
   std::vector<std::string> head = {"over its noise"};
   for (const PointTrade& point : scene.points) {
@@ -78,8 +83,8 @@ std::string errors_table(const SceneTrade& scene) {
     for (const TradeError& error : point.errors) {
       const auto column = std::find(head.begin() + 1, head.end(), error.name) - head.begin();
       row[static_cast<std::size_t>(column)] = {
-          shown(error.over_noise), error.over_noise == worst(point.errors),
-          shown(error.distance) + " over " + shown(error.noise)};
+          format_number(error.over_noise), error.over_noise == worst(point.errors),
+          format_number(error.distance) + " over " + format_number(error.noise)};
     }
   }
   return rows.empty() ? "" : html_table(head, rows);

@@ -19,8 +19,8 @@ fs::path file_in(const fs::path& folder, const char* kind, const StudyRun& run) 
   return folder / kind / (run.name() + ".json");
 }
 
-/// What the file of another study would say otherwise.
-Figures recipe(const StudyRun& run) {
+/// Returns the settings by which the files of different studies are distinguished.
+Figures run_settings(const StudyRun& run) {
   Figures figures = {{"/run/scene", run.scene},
                      {"/run/scene_hash", run.scene_hash},
                      {"/run/point", run.point.name},
@@ -33,13 +33,13 @@ Figures recipe(const StudyRun& run) {
   return figures;
 }
 
-/// A name as a step of a JSON pointer (RFC 6901), and back.
-std::string step(const std::string& name) {
+/// Escape and unescape a name as a reference token of a JSON pointer (RFC 6901).
+std::string escape_token(const std::string& name) {
   std::string text;
   for (const char c : name) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return text;
 }
-std::string unstep(const std::string& text) {
+std::string unescape_token(const std::string& text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {
     name += text[i] != '~' ? text[i] : text[++i] == '1' ? '/' : '~';
@@ -47,7 +47,7 @@ std::string unstep(const std::string& text) {
   return name;
 }
 
-/// Numbers with as many digits as tell them apart, a space between.
+/// Convert between numbers and text: shortest exact digits, separated by spaces.
 std::string join(const std::vector<double>& values) {
   std::string text;
   for (const double value : values) {
@@ -69,14 +69,14 @@ std::vector<double> split(const std::string& text) {
 constexpr const char* kSamples = "/samples/";
 
 Figures figures_of(const StudyRun& run, const RunResult& result) {
-  Figures figures = recipe(run);
+  Figures figures = run_settings(run);
   if (!result.failed.empty()) {
     figures["/failed"] = result.failed;
     return figures;
   }
   figures["/state_hash"] = result.facts.state_hash;
   for (const auto& [name, values] : result.facts.samples) {
-    figures[kSamples + step(name)] = join(values);
+    figures[kSamples + escape_token(name)] = join(values);
   }
   return figures;
 }
@@ -88,17 +88,17 @@ RunResult result_of(const Figures& figures) {
   for (const auto& [place, value] : figures) {
     const auto* text = std::get_if<std::string>(&value);
     if (!text || !place.starts_with(kSamples)) continue;
-    result.facts.samples[unstep(place.substr(std::strlen(kSamples)))] = split(*text);
+    result.facts.samples[unescape_token(place.substr(std::strlen(kSamples)))] = split(*text);
   }
   return result;
 }
 
-bool same_recipe(const Figures& stored, const StudyRun& run) {
+bool has_settings(const Figures& stored, const StudyRun& run) {
   Figures kept;
   for (const auto& entry : stored) {
     if (entry.first.starts_with("/run/")) kept.insert(entry);
   }
-  return format_figures(kept) == format_figures(recipe(run));
+  return format_figures(kept) == format_figures(run_settings(run));
 }
 
 Figures read_figures(const fs::path& file) {
@@ -132,7 +132,7 @@ StoredRun read_run(const fs::path& folder, const StudyRun& run) {
   if (!fs::exists(file)) return {{}, "not done"};
   try {
     const Figures figures = read_figures(file);
-    if (!same_recipe(figures, run)) return {{}, "of another study", true};
+    if (!has_settings(figures, run)) return {{}, "of another study", true};
     const Figures time = read_figures(times);
     stored.ran.result = result_of(figures);
     stored.ran.time = {number_at(time, "/cpu_ms"), number_at(time, "/wall_ms"),

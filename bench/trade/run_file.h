@@ -1,5 +1,5 @@
-// A run's files in the folder of a study: runs/SCENE/POINT-SEED.json, which holds what counts and
-// is the same whoever makes it, and times/SCENE/POINT-SEED.json beside it.
+// Files of a run in the folder of a study: runs/SCENE/POINT-SEED.json has the results, which are
+// the same on every machine, and times/SCENE/POINT-SEED.json has the times.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,16 @@
 
 namespace sunder::bench {
 
-/// Both files, each whole or not at all; a result that is there has its times. Throws FileError.
+/// Writes the file of times, then that of results, each atomically. Throws FileError.
 void write_run(const std::filesystem::path& folder, const StudyRun& run, const Ran& ran);
 
-/// A run as it was found.
+/// A run as read from its files.
 struct StoredRun {
   Ran ran;
-  std::string missing;   ///< Why it has to be done; empty: it is done.
-  bool damaged = false;  ///< A file is there, but it is not of this run.
+  std::string missing;   ///< Reason why the run must be done; empty if it is done.
+  bool damaged = false;  ///< True if a file exists that is unreadable or belongs to another run.
 };
+/// Reads the files of a run.
 StoredRun read_run(const std::filesystem::path& folder, const StudyRun& run);
 
 }  // namespace sunder::bench

@@ -20,8 +20,8 @@ int last_frame_of(const Scene& scene, const StudyRun& run) {
   return run.frames < 0 ? end : std::min(run.frames, end);
 }
 
-/// What of a frame is no number; empty if all is.
-std::string not_finite(const Frame& frame) {
+/// Returns which value of a frame is not finite; empty if all are finite.
+std::string find_non_finite(const Frame& frame) {
   for (const FrameBody& body : frame.bodies) {
     if (body.X_WB.position.allFinite() && body.X_WB.rotation.coeffs().allFinite() &&
         body.velocity_W.allFinite() && body.angular_velocity_W.allFinite()) {
@@ -33,7 +33,7 @@ std::string not_finite(const Frame& frame) {
   return {};
 }
 
-std::string not_finite(const Facts& facts) {
+std::string find_non_finite(const Facts& facts) {
   for (const auto& [name, values] : facts.samples) {
     for (const double value : values) {
       if (!std::isfinite(value)) return name + " is not finite";
@@ -48,19 +48,18 @@ double wall_ms() {
       .count();
 }
 
-/// Frames on their way to the facts; the clocks run while they are made, not while they are
-/// measured.
+/// Passes frames from the source to the facts; only the making of frames is timed.
 void pump_timed(FrameSource& source, int last, FactsSink& facts, Ran& ran) {
   for (int i = 0; i <= last; ++i) {
     const double cpu = cpu_ms(), wall = wall_ms();
     const FramePtr frame = source.next();
     if (!frame) return;
-    if (i > 0) {  // frame 0 is the scene as given
+    if (i > 0) {  // frame 0 is the initial state
       ran.time.cpu_ms += cpu_ms() - cpu;
       ran.time.wall_ms += wall_ms() - wall;
       ++ran.time.frames;
     }
-    ran.result.failed = not_finite(*frame);
+    ran.result.failed = find_non_finite(*frame);
     if (!ran.result.failed.empty()) return;
     facts.take(frame);
   }
@@ -137,7 +136,7 @@ Ran measure(const std::function<std::unique_ptr<FrameSource>()>& begin, int last
     if (failed.empty()) {
       facts.finish();
       ran.result.facts = facts.facts();
-      failed = not_finite(ran.result.facts);
+      failed = find_non_finite(ran.result.facts);
     }
   } catch (const std::exception& error) {
     failed = error.what();

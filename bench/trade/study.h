@@ -1,7 +1,7 @@
-// A study: scenes, each run at every point with every seed. Runs know nothing of each other, so
-// that any number of machines may share them (bench/cluster/README.md).
+// A study: every scene is run at every point with every seed. Runs are independent, so that they
+// can be distributed over machines (bench/cluster/README.md).
 //
-// Read first: study_runs(), then carry_out(). What becomes of the results is in merge.h.
+// Begin at study_runs(), then carry_out(). merge.h evaluates the results.
 #pragma once
 
 #include <filesystem>
@@ -18,64 +18,63 @@ namespace sunder::bench {
 
 struct Study {
   std::vector<std::string> scenes;  ///< Files or names.
-  std::vector<StudyPoint> points;   ///< The limit is the last.
+  std::vector<StudyPoint> points;   ///< The last point is the limit.
   std::vector<std::string> set;     ///< key=value, for all runs.
   int seeds = 8;
-  int frames = -1;  ///< At most so many of each scene; all if negative.
+  int frames = -1;  ///< Largest number of frames of a scene; negative: all.
 };
 
-/// All there is to know to carry a run out, anywhere.
+/// Everything that is needed to simulate a run on any machine.
 struct StudyRun {
-  std::string scene;  ///< Its name.
+  std::string scene;  ///< Name of the scene.
   std::filesystem::path scene_file;
-  std::string scene_hash;  ///< Of the file's text.
+  std::string scene_hash;  ///< Hash of the text of the scene file.
   StudyPoint point;
-  std::vector<std::string> set;  ///< Of study, point and seed.
+  std::vector<std::string> set;  ///< key=value of the study, the point and the seed.
   int seed = 1;
   int frames = -1;
 
-  /// Of its files, without an ending: "stack/realtime-1".
+  /// Returns the name of the run's files without extension: "stack/realtime-1".
   std::string name() const;
 };
 
-/// Scene by scene and seed by seed, the points alternating within a seed: what disturbs a machine
-/// for a while disturbs all points alike. Throws InputError if a scene is not there, or two have
-/// one name.
+/// Returns the runs by scene, then seed, then point: a disturbance of the machine affects all
+/// points of a seed alike. Throws InputError if a scene does not exist or two scenes have one name.
 std::vector<StudyRun> study_runs(const Study& study);
 
 /// Share `index` of `count`, counted from 1.
 struct Shard {
   int index = 1, count = 1;
 };
-/// "I/N". Throws InputError.
+/// Parses "I/N". Throws InputError.
 Shard parse_shard(const std::string& text);
-/// Every count-th of the runs.
+/// Returns every count-th of the runs.
 std::vector<StudyRun> share_of(const std::vector<StudyRun>& runs, const Shard& shard);
 
-/// The scene as the run has it. Throws InputError.
+/// Loads the scene with the settings of the run. Throws InputError.
 Scene load_scene(const StudyRun& run);
-/// Of the run, about, as far as time goes; for progress alone.
+/// Returns an estimate of the relative duration of the run, for progress display.
 double work_of(const Scene& scene, const StudyRun& run);
 
-/// What counts of a run.
+/// Reproducible part of a run's result.
 struct RunResult {
   Facts facts;
-  std::string failed;  ///< Why it has no facts; empty if it has.
+  std::string failed;  ///< Reason why there are no facts; empty if there are.
 };
-/// What does not: it is never the same twice.
+/// Times of a run, which are different each time.
 struct RunTime {
-  double cpu_ms = 0;   ///< A frame, of all threads.
-  double wall_ms = 0;  ///< A frame.
+  double cpu_ms = 0;   ///< Processor time per frame, of all threads.
+  double wall_ms = 0;  ///< Wall time per frame.
   int frames = 0;
 };
 struct Ran {
   RunResult result;
   RunTime time;
 };
-/// The first frame and `last` more of what begin() makes. Whatever is thrown, and a body that is
-/// not finite, is a result.
+/// Measures the first frame and `last` more of the source that begin() makes. An exception or a
+/// body that is not finite becomes a failed result.
 Ran measure(const std::function<std::unique_ptr<FrameSource>()>& begin, int last);
-/// Throws InputError if there is no such scene.
+/// Simulates a run. Throws InputError if the scene does not exist.
 Ran carry_out(const StudyRun& run);
 
 }  // namespace sunder::bench

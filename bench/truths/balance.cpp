@@ -1,10 +1,10 @@
-// What just balances: overhangs and arches.
+// Validation of static balance: overhangs and arches.
 #include "bench/truths/truth.h"
 
 namespace sunder::truths {
 namespace {
 
-/// Eight blocks, each beyond the next by `factor` times what just balances.
+/// Returns true if a stack of eight blocks with `factor` times the overhangs in balance falls.
 bool overhang_falls(const Preset& preset, double factor) {
   PresetWorld world(preset);
   world.add(W::ground());
@@ -21,16 +21,16 @@ bool overhang_falls(const Preset& preset, double factor) {
   return world.state(top).X_WB.position.y() < before - 0.1;
 }
 
-double farthest_overhang(const Preset& preset) {
+double overhang_error(const Preset& preset) {
   return threshold(0.9, 1.05, 8, [&](double f) { return overhang_falls(preset, f); }) - 1;
 }
 
-/// Whether a semicircular arch of `count` voussoirs, thickness by radius `slim`, stands.
-bool arch_stands(const Preset& preset, int count, double slim) {
+/// Returns true if a semicircular arch of `count` voussoirs of radius 1 stands for 4 s.
+bool arch_stands(const Preset& preset, int count, double thickness) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 1));
   std::vector<BodyId> stones;
-  for (int i = 0; i < count; ++i) stones.push_back(world.add(W::voussoir(i, count, slim)));
+  for (int i = 0; i < count; ++i) stones.push_back(world.add(W::voussoir(i, count, thickness)));
   const BodyId crown = stones[static_cast<std::size_t>(count / 2)];
   world.run(4);
   return world.state(crown).X_WB.position.y() > 0.9;
@@ -38,9 +38,9 @@ bool arch_stands(const Preset& preset, int count, double slim) {
 
 Measure thinnest_arch(int count, double truth) {
   return [=](const Preset& p) {
-    const double slim =
+    const double thickness =
         threshold(0.08, 0.16, 7, [&](double s) { return arch_stands(p, count, s); });
-    return slim / truth - 1;
+    return thickness / truth - 1;
   };
 }
 
@@ -49,7 +49,7 @@ Measure thinnest_arch(int count, double truth) {
 Truths balance_truths() {
   const char* heyman = "line of thrust, Milankovitch 1907, Heyman 1969";
   return {
-      truth(10, "overhang of 8: farthest", "", "Σ L/2k", 0.005, farthest_overhang,
+      truth(10, "overhang of 8: farthest", "", "Σ L/2k", 0.005, overhang_error,
             {0.0005, 0.0005, 0.0005, 0.0005}),
       truth(11, "arch of 7: least thickness", "", heyman, 0.015, thinnest_arch(7, 0.09625),
             {0.0049, 0.0049, 0.0049, 0.0049}),

@@ -1,7 +1,8 @@
-// A house of brick under a charge of TNT on the ground before it, beside Jarrett (1968): distances
-// at which brick houses were damaged by explosions, R = K W^(1/3) / (1 + (3175/W)²)^(1/6) in m and
-// kg, K = 3.8 for three quarters of the walls demolished (A), 5.6 for a house beyond repair
-// (B), 9.6 for a wall that falls in part (Cb), 28 for no damage to its structure (Ca).
+// Validation of blasts: damage to a brick house by a charge of TNT on the ground in front of it,
+// compared with Jarrett (1968). Distance of a degree of damage: R = K W^(1/3) / (1 +
+// (3175/W)²)^(1/6) in m and kg, with K = 3.8 for three quarters of the walls demolished (A), 5.6
+// for a house beyond repair (B), 9.6 for partial collapse of a wall (Cb), 28 for no structural
+// damage (Ca).
 #include <cmath>
 #include <map>
 #include <string>
@@ -22,10 +23,10 @@ double radius_m(double k) {
   return k * std::cbrt(kCharge_kg) / std::pow(1 + std::pow(3175 / kCharge_kg, 2), 1.0 / 6);
 }
 
-/// The share of a house that has fallen, with a charge that far before its front wall.
-double fallen(double distance_m, const Preset& preset) {
-  static std::map<std::pair<double, std::string>, double> known;
-  const auto [place, is_new] = known.try_emplace({distance_m, preset.name});
+/// Returns the fraction of a house that falls, with the charge at `distance_m` from its front wall.
+double share_fallen(double distance_m, const Preset& preset) {
+  static std::map<std::pair<double, std::string>, double> cache;
+  const auto [place, is_new] = cache.try_emplace({distance_m, preset.name});
   if (!is_new) return place->second;
   const double front_m = -3;
   const std::string text =
@@ -40,13 +41,14 @@ double fallen(double distance_m, const Preset& preset) {
   return place->second = 1 - share_standing(*last);
 }
 
-/// Logarithm of the distance from which on nothing falls, over the middle of B and Cb.
-double reach_of_damage(const Preset& preset) {
-  constexpr double kSome = 0.01;
+/// Returns the logarithm of the least distance without damage, over the geometric mean of B and Cb.
+double damage_distance(const Preset& preset) {
+  constexpr double kDamaged = 0.01;
   constexpr int kRounds = 5;
-  const double reach_m = threshold(radius_m(kA), radius_m(kCa), kRounds,
-                                   [&](double at_m) { return fallen(at_m, preset) < kSome; });
-  return std::log(reach_m / std::sqrt(radius_m(kB) * radius_m(kCb)));
+  const double found_m = threshold(radius_m(kA), radius_m(kCa), kRounds, [&](double at_m) {
+    return share_fallen(at_m, preset) < kDamaged;
+  });
+  return std::log(found_m / std::sqrt(radius_m(kB) * radius_m(kCb)));
 }
 
 }  // namespace
@@ -55,11 +57,13 @@ Truths blast_truths() {
   const char* jarrett = "Jarrett 1968";
   return {
       truth(45, "house of brick, 1 t of TNT: logarithm of the reach of damage, from B to Cb", "",
-            jarrett, 0.27, reach_of_damage, {0.27, 0.27, 0.27, 0.27}),
+            jarrett, 0.27, damage_distance, {0.27, 0.27, 0.27, 0.27}),
       truth(45, "house of brick, 1 t of TNT at A, 25 m: share that stands", "", jarrett, 0.5,
-            [](const Preset& p) { return 1 - fallen(radius_m(kA), p); }, {0.95, 0.9, 0.95, 0.5}),
+            [](const Preset& p) { return 1 - share_fallen(radius_m(kA), p); },
+            {0.95, 0.9, 0.95, 0.5}),
       truth(45, "house of brick, 1 t of TNT at Ca, 188 m: share that falls", "", jarrett, 0.01,
-            [](const Preset& p) { return fallen(radius_m(kCa), p); }, {0.01, 0.01, 0.01, 0.01}),
+            [](const Preset& p) { return share_fallen(radius_m(kCa), p); },
+            {0.01, 0.01, 0.01, 0.01}),
   };
 }
 

@@ -1,4 +1,4 @@
-// What breaks: momentum, spin and energy through every break.
+// Validation of breaks: conservation of momentum, angular momentum and energy.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,18 +16,20 @@
 namespace sunder::truths {
 namespace {
 
-/// Mass and motion of all there is.
-struct Whole {
+/// Mass, momentum and kinetic energy of all dynamic bodies.
+struct MassAndMotion {
   double mass_kg = 0, kinetic_J = 0;
-  Vec3 moment_kgm = Vec3::Zero(), momentum_Ns = Vec3::Zero(), spin_Nms = Vec3::Zero();
+  Vec3 moment_kgm = Vec3::Zero(), momentum_Ns = Vec3::Zero(), angular_momentum_Nms = Vec3::Zero();
 
   Vec3 center() const { return moment_kgm / mass_kg; }
-  /// Angular momentum about the centre of all.
-  Vec3 own_spin() const { return spin_Nms - center().cross(momentum_Ns); }
+  /// Returns the angular momentum about the centre of mass.
+  Vec3 angular_momentum_about_center() const {
+    return angular_momentum_Nms - center().cross(momentum_Ns);
+  }
 };
 
-/// The rigid solver, with the masses of what is in it.
-class WeighedPhysics final : public bench::ForwardingPhysics {
+/// Rigid physics that sums mass and motion of its dynamic bodies.
+class SummingPhysics final : public bench::ForwardingPhysics {
  public:
   using ForwardingPhysics::ForwardingPhysics;
 
@@ -41,8 +43,8 @@ class WeighedPhysics final : public bench::ForwardingPhysics {
       if (!add[i].is_static) bodies_.emplace_back(ids[i], add[i]);
     return ids;
   }
-  Whole whole() const {
-    Whole sum;
+  MassAndMotion sum_motion() const {
+    MassAndMotion sum;
     for (const auto& [id, desc] : bodies_) {
       const BodyState s = physics_->state(id);
       const Mat3 R = s.X_WB.rotation.toRotationMatrix();
@@ -52,7 +54,7 @@ class WeighedPhysics final : public bench::ForwardingPhysics {
       sum.kinetic_J += 0.5 * (momentum.dot(s.velocity_W) + spin.dot(s.angular_velocity_W));
       sum.moment_kgm += desc.mass_kg * s.X_WB.position;
       sum.momentum_Ns += momentum;
-      sum.spin_Nms += s.X_WB.position.cross(momentum) + spin;
+      sum.angular_momentum_Nms += s.X_WB.position.cross(momentum) + spin;
     }
     return sum;
   }
@@ -86,10 +88,10 @@ velocity = [40, 5, 0]
 radius_m = 0.3
 )";
 
-/// The worst of a flight, in which something breaks.
+/// Largest errors of a flight during which a body breaks.
 struct Flight {
   double center_m = 0, momentum = 0, spin = 0;
-  double gain = 0;  ///< Of kinetic and potential energy over what it was less what breaks took.
+  double gain = 0;  ///< Energy created, divided by the kinetic energy at the start.
   std::size_t breaks = 0;
 };
 
@@ -99,18 +101,18 @@ Flight fly(const Preset& preset) {
   solver::RigidOptions options;
   options.gravity_W = gravity_W;
   options.sweeps = scene.solver.sweeps;
-  auto owned = std::make_unique<WeighedPhysics>(solver::make_rigid_physics(options));
-  const WeighedPhysics& physics = *owned;
+  auto owned = std::make_unique<SummingPhysics>(solver::make_rigid_physics(options));
+  const SummingPhysics& physics = *owned;
   Simulation simulation(std::move(scene), std::move(owned), fracture::make_pattern_breaker());
   simulation.next();
-  const Whole start = physics.whole();
-  const auto energy = [&](const Whole& whole) {
+  const MassAndMotion start = physics.sum_motion();
+  const auto energy = [&](const MassAndMotion& whole) {
     return whole.kinetic_J - gravity_W.dot(whole.moment_kgm - start.moment_kgm);
   };
   Flight worst;
   double allowed_J = energy(start);
   while (const FramePtr frame = simulation.next()) {
-    const Whole now = physics.whole();
+    const MassAndMotion now = physics.sum_motion();
     const double t = frame->time_s;
     for (const BreakEvent& event : frame->breaks) allowed_J -= event.energy_J;
     worst.breaks += frame->breaks.size();
@@ -122,14 +124,16 @@ Flight fly(const Preset& preset) {
     worst.center_m = std::max(worst.center_m, (now.center() - parabola).norm());
     worst.momentum =
         std::max(worst.momentum, (now.momentum_Ns - expected).norm() / start.momentum_Ns.norm());
-    worst.spin =
-        std::max(worst.spin, (now.own_spin() - start.own_spin()).norm() / start.own_spin().norm());
+    worst.spin = std::max(
+        worst.spin,
+        (now.angular_momentum_about_center() - start.angular_momentum_about_center()).norm() /
+            start.angular_momentum_about_center().norm());
   }
   return worst;
 }
 
-/// Nothing counts that does not break.
-Measure of_flight(double Flight::*which) {
+/// Measures an error of the flight; 1e9 if nothing broke.
+Measure flight_error(double Flight::*which) {
   return [=](const Preset& p) {
     const Flight flight = fly(p);
     return flight.breaks > 0 ? flight.*which : 1e9;
@@ -143,15 +147,15 @@ struct Block {
 constexpr Block kPlate = {"size_m = [2, 0.1, 2]\nblock_m = 0.5\n", 960};
 constexpr Block kCube = {"size_m = [0.5, 0.5, 0.5]\n", 300};
 
-/// What it takes to break it when it lands flat at that speed; 0 if it holds. By `phase`, a part of
-/// a frame, it lands sooner or later in a step.
-double broken_J(const Block& block, const Preset& preset, double speed_m_s, double phase) {
+/// Returns the energy of the first break of a block that lands flat at that speed; 0 if it holds.
+/// `phase` shifts the landing within a step by a fraction of a frame.
+double break_energy_J(const Block& block, const Preset& preset, double speed_m_s, double phase) {
   const double start_m_s = phase * kG / 60;
   const double above_m = (speed_m_s * speed_m_s - start_m_s * start_m_s) / (2 * kG);
   const std::string text =
       "[scene]\ndescription = \"A landing.\"\nduration_s = 0.4\n[limits]\ndebris = 0\ndust = 0\n"
       "[[material]]\nname = \"concrete\"\ntoughness_J_m2 = 400\n"
-      "tensile_Pa = 0\nshear_Pa = 0\ncompressive_Pa = 0\n"  // it is not bent when it rocks
+      "tensile_Pa = 0\nshear_Pa = 0\ncompressive_Pa = 0\n"  // no break by bending when it rocks
       "[[solid]]\nstructure = \"box\"\nmaterial = \"concrete\"\nposition = [0, " +
       std::to_string(above_m) + ", 0]\nvelocity = [0, " + std::to_string(-start_m_s) + ", 0]\n" +
       block.size;
@@ -162,17 +166,16 @@ double broken_J(const Block& block, const Preset& preset, double speed_m_s, doub
   return 0;
 }
 
-/// How far the speed that breaks it is off that whose energy the cracks take; the worst of three
-/// phases.
-Measure of_landing(const Block& block) {
+/// Relative error of the speed whose kinetic energy is the crack energy; the worst of three phases.
+Measure breaking_speed_error(const Block& block) {
   return [=](const Preset& preset) {
     double worst = 0;
     for (const double phase : {0.0, 1 / 3.0, 2 / 3.0}) {
-      const auto breaks = [&](double v) { return broken_J(block, preset, v, phase) > 0; };
+      const auto breaks = [&](double v) { return break_energy_J(block, preset, v, phase) > 0; };
       const double speed = threshold(0.2, 3, 12, breaks);
-      const double asked_J = broken_J(block, preset, 1.001 * speed, phase);
-      const double off = speed / std::sqrt(2 * asked_J / block.mass_kg) - 1;
-      if (!(std::abs(off) < std::abs(worst))) worst = off;
+      const double crack_J = break_energy_J(block, preset, 1.001 * speed, phase);
+      const double error = speed / std::sqrt(2 * crack_J / block.mass_kg) - 1;
+      if (!(std::abs(error) < std::abs(worst))) worst = error;
     }
     return worst;
   };
@@ -183,18 +186,18 @@ Measure of_landing(const Block& block) {
 Truths break_truths() {
   return {
       truth(16, "block broken in flight: its centre", "m", "parabola", 1e-4,
-            of_flight(&Flight::center_m), {5e-5, 3.5e-5, 3e-5, 9e-5}),
+            flight_error(&Flight::center_m), {5e-5, 3.5e-5, 3e-5, 9e-5}),
       truth(16, "block broken in flight: p", "", "constant but for gravity", 1e-6,
-            of_flight(&Flight::momentum), {9e-6, 2.1e-6, 3.5e-6, 1.4e-5}),
-      truth(16, "block broken in flight: L", "", "constant", 1e-5, of_flight(&Flight::spin),
+            flight_error(&Flight::momentum), {9e-6, 2.1e-6, 3.5e-6, 1.4e-5}),
+      truth(16, "block broken in flight: L", "", "constant", 1e-5, flight_error(&Flight::spin),
             {0.0072, 0.0072, 0.0066, 9e-5}),
       truth(26, "block broken in flight: energy beyond what breaks leave", "",
-            "KE after ≤ before − toughness × area", 1e-6, of_flight(&Flight::gain),
+            "KE after ≤ before − toughness × area", 1e-6, flight_error(&Flight::gain),
             {1e-7, 1e-7, 1e-7, 2e-7}),
       truth(27, "plate that lands flat: speed that breaks it", "", "½mv² = toughness × area", 0.01,
-            of_landing(kPlate), {0.001, 0.001, 0.001, 0.001}),
+            breaking_speed_error(kPlate), {0.001, 0.001, 0.001, 0.001}),
       truth(27, "cube that lands flat: speed that breaks it", "", "½mv² = toughness × area", 0.01,
-            of_landing(kCube), {0.001, 0.001, 0.001, 0.001}),
+            breaking_speed_error(kCube), {0.001, 0.001, 0.001, 0.001}),
   };
 }
 

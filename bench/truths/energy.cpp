@@ -1,4 +1,4 @@
-// What no sane scene asks for makes no energy, passes through nothing, and comes to rest.
+// Validation of extreme bodies: no gain of energy, no tunnelling, and rest in the end.
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +8,7 @@
 namespace sunder::truths {
 namespace {
 
-/// The most that the energy of a world rises above its start within some seconds, over that; never
-/// finite if something in it is not.
+/// Returns the largest relative rise of energy above its start; not finite if a state is not.
 double energy_gained(PresetWorld& world, double time_s) {
   const auto energy = [&] { return world.kinetic_energy() + world.potential_energy(kG); };
   const double first_J = energy();
@@ -51,7 +50,7 @@ double plates_and_needles(const Preset& preset) {
   return energy_gained(world, 2);
 }
 
-/// The worst of four mass ratios, one box on another.
+/// Largest gain of energy of one box on another, over four mass ratios.
 double mass_ratios(const Preset& preset) {
   double worst = 0;
   for (const double ratio : {1e-6, 1e-3, 1e3, 1e6}) {
@@ -64,7 +63,7 @@ double mass_ratios(const Preset& preset) {
   return worst;
 }
 
-/// How far what is a thousand or a million times as light wanders, at rest on the other.
+/// Largest displacement of a box at rest on one that is a thousand or a million times heavier.
 double light_on_heavy_mm(const Preset& preset) {
   double worst_m = 0;
   for (const double ratio : {1e-6, 1e-3}) {
@@ -85,7 +84,7 @@ double stack_of_thousand(const Preset& preset) {
   return energy_gained(world, 5);
 }
 
-/// Balls and boxes shot at walls that are held or free: how many pass, or gain energy.
+/// Number of balls and boxes, shot at anchored and free walls, that pass or gain energy.
 double shots_that_pass(const Preset& preset) {
   int passed = 0;
   for (int shot = 0; shot < 36; ++shot) {
@@ -107,8 +106,8 @@ double shots_that_pass(const Preset& preset) {
   return passed;
 }
 
-/// A ball that passes a wall by, 2 cm off: what it loses of its speed.
-double graze(const Preset& preset) {
+/// Change of velocity of a ball that passes a wall at a distance of 2 cm.
+double near_miss(const Preset& preset) {
   PresetWorld world(preset, Vec3::Zero());
   world.add(W::fixed(W::box(Vec3(0.2, 2, 2), Vec3::Zero())));
   const BodyId id = world.add(W::moving(W::sphere(0.1, Vec3(-3.3, 1.12, 0)), Vec3(200, 0, 0)));
@@ -116,7 +115,7 @@ double graze(const Preset& preset) {
   return (world.state(id).velocity_W - Vec3(200, 0, 0)).norm();
 }
 
-/// Boxes that overlap by half fly apart no faster than by what an overlap may push.
+/// Kinetic energy of boxes that overlap by half, divided by its limit in overlap resolution.
 double half_overlaps(const Preset& preset) {
   PresetWorld world(preset, Vec3::Zero());
   const double side_m = 0.2;
@@ -124,7 +123,7 @@ double half_overlaps(const Preset& preset) {
   for (int i = 0; i < 125; ++i) {
     const Vec3 cell(i % 5, i / 5 % 5, i / 25);
     const BodyDesc box = W::box(Vec3::Constant(side_m), 0.1 * cell);
-    allowed_J += 0.5 * box.mass_kg * 16 * 0.5 * side_m;  // 4 √(g h), where there is no weight g = 1
+    allowed_J += 0.5 * box.mass_kg * 16 * 0.5 * side_m;  // limit 4 √(g h); g = 1 without gravity
     world.add(box);
   }
   world.watch(1, [&] {
@@ -151,7 +150,7 @@ Truths energy_truths() {
             {1e-7, 1e-7, 3.1e-6, 3e-6}),
       truth(41, "36 shots of up to 1,000 m/s at walls of 10 to 100 mm: pass", "", "none passes", 0,
             shots_that_pass, {0, 0, 0, 0}),
-      truth(41, "ball that passes a wall by at 200 m/s: pushed", "m/s", "0", 1e-3, graze,
+      truth(41, "ball that passes a wall by at 200 m/s: pushed", "m/s", "0", 1e-3, near_miss,
             {0.0001, 0.0001, 0.0001, 0.0001}),
       truth(42, "125 boxes that overlap by half: energy, of what an overlap may push", "",
             "docs/decisions/020", 1, half_overlaps, {0.1, 0.1, 0.1, 0.1}),

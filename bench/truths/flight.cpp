@@ -1,4 +1,4 @@
-// Free flight and spin.
+// Validation of free flight and rotation.
 #include <algorithm>
 #include <cmath>
 
@@ -9,28 +9,31 @@
 namespace sunder::truths {
 namespace {
 
-/// Of a world that nothing acts on, from its beginning on.
-class Kept {
+/// Conserved quantities of a world without external forces, relative to those at construction.
+class Conserved {
  public:
-  explicit Kept(const RigidWorld& world)
+  explicit Conserved(const RigidWorld& world)
       : world_(world),
-        energy_J_(world.kinetic_energy()),
-        momentum_(world.momentum()),
-        spin_(world.angular_momentum()) {}
+        start_energy_J_(world.kinetic_energy()),
+        start_momentum_(world.momentum()),
+        start_angular_momentum_(world.angular_momentum()) {}
 
-  double energy() const { return world_.kinetic_energy() / energy_J_ - 1; }
-  double spin() const { return (world_.angular_momentum() - spin_).norm() / spin_.norm(); }
-  double spin_over(double scale) const {
-    return (world_.angular_momentum() - spin_).norm() / scale;
+  double energy() const { return world_.kinetic_energy() / start_energy_J_ - 1; }
+  double angular_momentum() const {
+    return (world_.angular_momentum() - start_angular_momentum_).norm() /
+           start_angular_momentum_.norm();
+  }
+  double angular_momentum_over(double scale) const {
+    return (world_.angular_momentum() - start_angular_momentum_).norm() / scale;
   }
   double momentum_over(double scale) const {
-    return (world_.momentum() - momentum_).norm() / scale;
+    return (world_.momentum() - start_momentum_).norm() / scale;
   }
 
  private:
   const RigidWorld& world_;
-  double energy_J_;
-  Vec3 momentum_, spin_;
+  double start_energy_J_;
+  Vec3 start_momentum_, start_angular_momentum_;
 };
 
 double parabola_m(const Preset& preset) {
@@ -42,30 +45,30 @@ double parabola_m(const Preset& preset) {
   return (world.state(body).X_WB.position - truth).norm();
 }
 
-/// Turns about its middle axis for a minute, and so tumbles over and over (Dzhanibekov).
-double tumbler(const Preset& preset, double (Kept::*error)() const) {
+/// A box that rotates about its middle axis for a minute and tumbles (Dzhanibekov effect).
+double tumbler(const Preset& preset, double (Conserved::*error)() const) {
   PresetWorld world(preset, Vec3::Zero());
   world.add(W::moving(W::box(Vec3(1, 0.6, 0.2), Vec3::Zero()), Vec3::Zero(), Vec3(0.01, 10, 0.01)));
-  const Kept kept(world);
+  const Conserved conserved(world);
   world.run(60);
-  return (kept.*error)();
+  return (conserved.*error)();
 }
 
-/// The worse of a slow and a faster one.
-double slab(const Preset& preset, double (Kept::*error)() const) {
+/// The larger error of a slow and of a fast box.
+double slab(const Preset& preset, double (Conserved::*error)() const) {
   double worst = 0;
   for (const double spin : {0.5, 5.0}) {
     PresetWorld world(preset, Vec3::Zero());
     world.add(W::moving(W::box(Vec3(1, 0.2, 0.5), Vec3::Zero()), Vec3::Zero(),
                         spin * Vec3(1, 2, 0.5).normalized()));
-    const Kept kept(world);
+    const Conserved conserved(world);
     world.run(4);
-    worst = std::max(worst, std::abs((kept.*error)()));
+    worst = std::max(worst, std::abs((conserved.*error)()));
   }
   return worst;
 }
 
-/// Boxes that touch and fly apart.
+/// Boxes in contact that fly apart.
 double fragments(const Preset& preset) {
   PresetWorld world(preset, Vec3::Zero());
   Random random(5, 1);
@@ -75,13 +78,14 @@ double fragments(const Preset& preset) {
     world.add(W::with_friction(
         W::moving(W::box(Vec3::Constant(0.2), at), velocity, 10 * random.direction()), 0.6));
   }
-  const Kept kept(world);
+  const Conserved conserved(world);
   world.run(1);
-  return kept.spin();
+  return conserved.angular_momentum();
 }
 
-/// Sixty hulls that fly into each other, over what their momenta are, a metre away.
-double implosion(const Preset& preset, double (Kept::*error)(double) const) {
+/// Sixty hulls that fly into each other. Errors are relative to the sum of their momenta, times 1
+/// m.
+double implosion(const Preset& preset, double (Conserved::*error)(double) const) {
   PresetWorld world(preset, Vec3::Zero());
   Random random(3);
   double thrown_Ns = 0;
@@ -94,24 +98,24 @@ double implosion(const Preset& preset, double (Kept::*error)(double) const) {
     thrown_Ns += hull.mass_kg * velocity.norm();
     world.add(W::moving(hull, velocity));
   }
-  const Kept kept(world);
+  const Conserved conserved(world);
   world.run(2);
-  return (kept.*error)(thrown_Ns);
+  return (conserved.*error)(thrown_Ns);
 }
 
-/// A flat box turns about its axis on smooth ground, 2.5 rad a step of 1/60 s.
+/// A flat box that rotates about its axis on ground without friction, by 2.5 rad per 1/60 s.
 double spin_on_ground(const Preset& preset) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 0));
   world.add(W::with_friction(
       W::moving(W::box(Vec3(0.4, 0.2, 0.4), Vec3(0, 0.1, 0)), Vec3::Zero(), Vec3(0, 150, 0)), 0));
-  const Kept kept(world);
+  const Conserved conserved(world);
   world.run(1);
-  return kept.spin();
+  return conserved.angular_momentum();
 }
 
-/// How far a heap of hulls moves but for what its report says came from outside, of its weight for
-/// a second.
+/// Largest change of momentum in a step of a heap of hulls without the external impulse of the
+/// report, divided by the impulse of the heap's weight in one second.
 double unreported_impulse(const Preset& preset) {
   PresetWorld world(preset);
   world.add(W::ground());
@@ -135,11 +139,11 @@ double unreported_impulse(const Preset& preset) {
   return worst_Ns / (mass_kg * kG);
 }
 
-Measure energy_of(double (*run)(const Preset&, double (Kept::*)() const)) {
-  return [=](const Preset& p) { return run(p, &Kept::energy); };
+Measure energy_of(double (*run)(const Preset&, double (Conserved::*)() const)) {
+  return [=](const Preset& p) { return run(p, &Conserved::energy); };
 }
-Measure spin_of(double (*run)(const Preset&, double (Kept::*)() const)) {
-  return [=](const Preset& p) { return run(p, &Kept::spin); };
+Measure spin_of(double (*run)(const Preset&, double (Conserved::*)() const)) {
+  return [=](const Preset& p) { return run(p, &Conserved::angular_momentum); };
 }
 
 }  // namespace
@@ -163,10 +167,10 @@ Truths flight_truths() {
       truth(28, "48 boxes fly apart in contact: L", "", "constant", 1e-5, fragments,
             {1.4e-5, 7e-6, 1.4e-5, 3.5e-5}),
       truth(28, "60 hulls fly into each other: p", "", "constant", 1e-6,
-            [](const Preset& p) { return implosion(p, &Kept::momentum_over); },
+            [](const Preset& p) { return implosion(p, &Conserved::momentum_over); },
             {3.6e-7, 1.5e-7, 4.9e-7, 6e-7}),
       truth(28, "60 hulls fly into each other: L", "", "constant", 1e-5,
-            [](const Preset& p) { return implosion(p, &Kept::spin_over); },
+            [](const Preset& p) { return implosion(p, &Conserved::angular_momentum_over); },
             {1e-6, 1e-6, 1e-6, 1e-6}),
   };
 }

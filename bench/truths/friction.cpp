@@ -1,4 +1,4 @@
-// Coulomb friction: what slides and what does not, how far, and which way it topples.
+// Validation of Coulomb friction: sliding, braking distances and toppling.
 #include <algorithm>
 #include <cmath>
 
@@ -9,31 +9,31 @@
 namespace sunder::truths {
 namespace {
 
-/// Gravity on a slope that is level here and falls towards x.
+/// Returns gravity in a frame whose x axis points down the slope.
 Vec3 down_slope(double slope_rad) {
   const SinCos a = sin_cos(slope_rad);
   return kG * Vec3(a.sin, -a.cos, 0);
 }
 
-/// A block on a slope this much steeper than its angle of friction, after two seconds.
+/// Motion in two seconds of a block on a slope `beyond_deg` steeper than its angle of friction.
 struct Slide {
-  double way_m, truth_m;  ///< From the speed it had.
-  double error_deg;       ///< Of the angle of friction that its acceleration tells.
+  double distance_m, theory_m;  ///< Travelled, and by theory from the speed at the start.
+  double error_deg;  ///< Error of the angle of friction that follows from the acceleration.
 };
 Slide slide(const Preset& preset, double beyond_deg) {
   const double friction = 0.5, slope_rad = std::atan(friction) + beyond_deg * kPi / 180;
   PresetWorld world(preset, down_slope(slope_rad));
   world.add(W::with_friction(W::ground(), friction));
   const BodyId id = world.add(W::with_friction(W::box(Vec3(1, 0.4, 1), Vec3(0, 0.2, 0)), friction));
-  world.run(0.5);  // settles into the ground
+  world.run(0.5);  // contact settles
   const BodyState start = world.state(id);
   world.run(2);
   const SinCos a = sin_cos(slope_rad);
   const double pull = std::max(0.0, a.sin - friction * a.cos);
-  const double way_m = world.state(id).X_WB.position.x() - start.X_WB.position.x();
-  const double truth_m = 2 * start.velocity_W.x() + 0.5 * kG * pull * 4;
-  const double error_rad = (way_m - truth_m) / (0.5 * kG * (a.cos + friction * a.sin) * 4);
-  return {way_m, truth_m, error_rad * 180 / kPi};
+  const double distance_m = world.state(id).X_WB.position.x() - start.X_WB.position.x();
+  const double theory_m = 2 * start.velocity_W.x() + 0.5 * kG * pull * 4;
+  const double error_rad = (distance_m - theory_m) / (0.5 * kG * (a.cos + friction * a.sin) * 4);
+  return {distance_m, theory_m, error_rad * 180 / kPi};
 }
 
 double braking_distance(const Preset& preset) {
@@ -49,7 +49,7 @@ double braking_distance(const Preset& preset) {
   return world.state(id).X_WB.position.x() * 2 * friction * kG / (speed_m_s * speed_m_s) - 1;
 }
 
-/// A square patch of four points at radius r: the torque of friction is mu m g r.
+/// A rotating square block on four contact points at radius r; friction has the torque mu m g r.
 double twist(const Preset& preset) {
   const double friction = 0.4, speed_rad_s = 3, side = 1, height = 0.2;
   PresetWorld world(preset);
@@ -71,7 +71,7 @@ double twist(const Preset& preset) {
   return angle / truth - 1;
 }
 
-/// What a block gains in two seconds that creeps down a slope of its angle of friction.
+/// Speed that a block of 9 mm/s gains in two seconds on a slope at its angle of friction.
 double gain_of_slow_slider(const Preset& preset) {
   const double friction = 0.5, speed_m_s = 0.009;
   PresetWorld world(preset, down_slope(std::atan(friction)));
@@ -83,7 +83,7 @@ double gain_of_slow_slider(const Preset& preset) {
   return world.state(id).velocity_W.x() - speed_m_s;
 }
 
-/// The most that a block of 1 m is turned or lifted that slides at 0.3 m/s until it stops.
+/// Largest vertical speed in m/s or rotation in rad/s of a block of 1 m that brakes from 0.3 m/s.
 double kick_of_slow_slider(const Preset& preset) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 0.5));
@@ -98,7 +98,7 @@ double kick_of_slow_slider(const Preset& preset) {
   return most_m_s;
 }
 
-/// Whether a block of 0.5 by 1 m topples on a slope.
+/// Returns true if a block of 0.5 by 1 m topples on the slope.
 bool topples(const Preset& preset, double slope_rad) {
   PresetWorld world(preset, down_slope(slope_rad));
   world.add(W::with_friction(W::ground(), 1));
@@ -114,8 +114,8 @@ double toppling_angle_deg(const Preset& preset) {
   return (found - truth) * 180 / kPi;
 }
 
-/// Two cards of this height that lean on each other in a line of 10 mm, 1 m apart at their feet.
-constexpr double kRidge_m = 1;
+/// Height of two cards that lean on each other along a line 10 mm high, 1 m apart at their feet.
+constexpr double kRidgeHeight_m = 1;
 
 bool cards_slip(const Preset& preset, double friction) {
   PresetWorld world(preset);
@@ -126,7 +126,7 @@ bool cards_slip(const Preset& preset, double friction) {
     for (const double z : {-0.25, 0.25})
       for (const double y : {0.0, 0.01}) {
         corners.emplace_back(0.5 * side, y, z);
-        corners.emplace_back(0, kRidge_m - 0.01 + y, z);
+        corners.emplace_back(0, kRidgeHeight_m - 0.01 + y, z);
       }
     const ConvexPolyhedron hull = make_hull(corners);
     card = world.add(W::with_friction(W::hull(hull, mass_properties(hull).centroid), friction));
@@ -136,18 +136,18 @@ bool cards_slip(const Preset& preset, double friction) {
   return world.state(card).X_WB.position.y() < 0.9 * before_m;
 }
 
-/// Moments about the foot: the ridge pushes with half the weight / tan φ, and the foot holds it.
+/// In theory the ridge pushes with half the weight / tan φ, which friction at the foot balances.
 double cards_friction(const Preset& preset) {
-  const double truth = 0.5 * 0.5 / kRidge_m;
-  const double stands = threshold(0.8 * truth, 1.2 * truth, 7,
-                                  [&](double friction) { return !cards_slip(preset, friction); });
-  return stands / truth - 1;
+  const double truth = 0.5 * 0.5 / kRidgeHeight_m;
+  const double least_friction = threshold(
+      0.8 * truth, 1.2 * truth, 7, [&](double friction) { return !cards_slip(preset, friction); });
+  return least_friction / truth - 1;
 }
 
-/// A rod that slides on its end faster than friction beyond Painlevé's limit lets it: the most
-/// that its energy rises over the least so far, of the first.
+/// Largest rise of energy above its minimum so far, relative to the start, of a rod that slides on
+/// its end with friction above Painlevé's limit.
 double painleve_gain(const Preset& preset) {
-  const double angle_rad = kPi / 3, friction = 2.2;  // the limit is 1.35
+  const double angle_rad = kPi / 3, friction = 2.2;  // Painlevé's limit is 1.35
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), friction));
   const SinCos a = sin_cos(angle_rad);
@@ -171,14 +171,14 @@ double painleve_gain(const Preset& preset) {
 Truths friction_truths() {
   return {
       truth(1, "block on a slope 0.1° less steep than its friction: creep in 2 s", "mm", "Coulomb",
-            0.2, [](const Preset& p) { return 1e3 * slide(p, -0.1).way_m; },
+            0.2, [](const Preset& p) { return 1e3 * slide(p, -0.1).distance_m; },
             {0.02, 0.02, 0.02, 0.02}),
       truth(1, "block on a slope 0.1° steeper: its angle of friction", "°", "Coulomb", 0.1,
             [](const Preset& p) { return slide(p, 0.1).error_deg; }, {0.01, 0.054, 0.027, 0.01}),
       truth(2, "block on a slope 5° steeper: way in 2 s", "", "g (sin θ − μ cos θ) t²/2", 0.002,
             [](const Preset& p) {
               const Slide s = slide(p, 5);
-              return s.way_m / s.truth_m - 1;
+              return s.distance_m / s.theory_m - 1;
             },
             {0.0011, 0.0011, 0.00053, 0.00023}),
       truth(2, "braking distance", "", "v²/2μg", 0.002, braking_distance,

@@ -1,4 +1,4 @@
-// Many bodies as one: dominoes, columns of grain that collapse, heaps.
+// Validation of granular motion: dominoes, collapsing columns of grains and heaps.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,7 +12,7 @@
 namespace sunder::truths {
 namespace {
 
-/// The speed of the wave along a row of 30 dominoes of this height, over √(gH).
+/// Speed of the wave along a row of 30 dominoes of this height, divided by √(gH).
 double domino_speed(const Preset& preset, double height_m) {
   PresetWorld world(preset);
   const double friction = 0.5, pitch_m = height_m / 2;
@@ -29,41 +29,41 @@ double domino_speed(const Preset& preset, double height_m) {
   const auto lean = [&](int i) {
     return (world.state(dominoes[static_cast<std::size_t>(i)]).X_WB.rotation * Vec3::UnitY()).x();
   };
-  constexpr int kFrom = 10, kTo = 25;
-  constexpr double kLean = 0.1;
-  double time_s = 0, from_s = 0, to_s = 0, before_from = 0, before_to = 0;
+  constexpr int kFirstTimed = 10, kLastTimed = 25;
+  constexpr double kMinLean = 0.1;
+  double time_s = 0, first_s = 0, last_s = 0, before_first = 0, before_last = 0;
   world.watch(40 * std::sqrt(height_m / kG), [&] {
     time_s += preset.dt_s;
-    const auto note = [&](double now, double& before, double& passed_s) {
-      if (passed_s == 0 && now > kLean)
-        passed_s = time_s - preset.dt_s * (now - kLean) / (now - before);
+    const auto find_crossing = [&](double now, double& before, double& passed_s) {
+      if (passed_s == 0 && now > kMinLean)
+        passed_s = time_s - preset.dt_s * (now - kMinLean) / (now - before);
       before = now;
     };
-    note(lean(kFrom), before_from, from_s);
-    note(lean(kTo), before_to, to_s);
+    find_crossing(lean(kFirstTimed), before_first, first_s);
+    find_crossing(lean(kLastTimed), before_last, last_s);
   });
-  return (kTo - kFrom) * pitch_m / (to_s - from_s) / std::sqrt(kG * height_m);
+  return (kLastTimed - kFirstTimed) * pitch_m / (last_s - first_s) / std::sqrt(kG * height_m);
 }
 
 double domino_scales(const Preset& preset) {
   return domino_speed(preset, 0.1) / domino_speed(preset, 0.8) - 1;
 }
 
-/// What a column of a thousand grains becomes, 1.5 times as high as its radius.
+/// Heap that results from a column of a thousand grains, 1.5 times as high as its radius.
 struct Heap {
-  double runout = 0;     ///< How far 98 % of the grains lie out, over the column's radius, less 1.
-  double slope_deg = 0;  ///< Of its side.
+  double runout = 0;     ///< Radius of 98 % of the grains over the column's radius, less 1.
+  double slope_deg = 0;  ///< Slope of its side.
 };
 constexpr double kRadius_m = 0.25, kAspect = 1.5;
 
-/// Grains of 6 cm in a cylinder, as high as they come to lie.
+/// Adds `count` grains of 6 cm above each other in a cylinder.
 std::vector<BodyId> pour(PresetWorld& world, int count) {
   Random random(11);
   std::vector<BodyId> grains;
   for (int i = 0; i < count; ++i) {
     std::vector<Vec3> corners;
     for (int k = 0; k < 12; ++k) corners.push_back(0.03 * random.direction());
-    const double turn = 2.4 * i;  // the golden angle
+    const double turn = 2.4 * i;  // golden angle
     const Vec3 at(0.18 * std::sqrt((i % 20) / 20.0) * sin_cos(turn).cos, 0.05 + 0.07 * (i / 20),
                   0.18 * std::sqrt((i % 20) / 20.0) * sin_cos(turn).sin);
     grains.push_back(world.add(W::with_friction(W::hull(make_hull(corners), at, 2000), 0.6)));
@@ -84,7 +84,7 @@ Heap collapse(const Preset& preset) {
   }
   const std::vector<BodyId> grains = pour(world, 1400);
   world.run(2.5);
-  // What lies above the height that the aspect asks for is taken away.
+  // Grains above the height of the column are removed.
   std::vector<BodyId> column;
   for (const BodyId id : grains) {
     if (world.state(id).X_WB.position.y() < kAspect * kRadius_m)
@@ -104,13 +104,13 @@ Heap collapse(const Preset& preset) {
   }
   std::sort(radii_m.begin(), radii_m.end());
   const double edge_m = radii_m[radii_m.size() * 98 / 100];
-  // Of a cone: half its radius and a quarter of its height are the means.
+  // The means of a cone are half its radius and a quarter of its height.
   return {edge_m / kRadius_m - 1, std::atan(2 * height_m / radius_m) * 180 / kPi};
 }
 
 const Heap& heap(const Preset& preset) {
-  static std::map<std::string, Heap> known;
-  const auto [place, is_new] = known.try_emplace(preset.name);
+  static std::map<std::string, Heap> cache;
+  const auto [place, is_new] = cache.try_emplace(preset.name);
   if (is_new) place->second = collapse(preset);
   return place->second;
 }

@@ -1,4 +1,4 @@
-// Impacts with restitution: what they give back, pass on and keep.
+// Validation of impacts with restitution: rebound, transfer and conservation.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ BodyDesc elastic(const BodyDesc& desc, double friction = 0) {
   return W::with_friction(desc, friction, 1);
 }
 
-/// How long a ball bounces that is let go 1 m above the ground, until it no longer leaves it.
+/// Relative error of the time for which a ball bounces that falls from 1 m.
 double time_of_bounces(const Preset& preset) {
   const double restitution = 0.5;
   PresetWorld world(preset);
@@ -45,12 +45,12 @@ double apex(const Preset& preset) {
   return highest_m / (restitution * restitution) - 1;
 }
 
-/// Of two balls that meet head-on.
-struct Meeting {
-  double energy = 0;    ///< What is lost beyond the truth, of what there was.
-  double momentum = 0;  ///< Change, of all that moves.
+/// Errors after a central collision of two balls.
+struct Collision {
+  double energy = 0;    ///< Energy lost in excess of theory, divided by the energy before.
+  double momentum = 0;  ///< Change of momentum, divided by the sum of the magnitudes.
 };
-Meeting two_balls(const Preset& preset, double restitution) {
+Collision two_balls(const Preset& preset, double restitution) {
   PresetWorld world(preset, Vec3::Zero());
   const auto ball = [&](double radius_m, double x_m, double speed_m_s) {
     return W::with_friction(W::moving(W::sphere(radius_m, Vec3(x_m, 0, 0)), Vec3(speed_m_s, 0, 0)),
@@ -62,8 +62,8 @@ Meeting two_balls(const Preset& preset, double restitution) {
   const Vec3 momentum = world.momentum();
   world.run(0.5);
   const double reduced_kg = a.mass_kg * b.mass_kg / (a.mass_kg + b.mass_kg);
-  const double truth_J = 0.5 * reduced_kg * (1 - restitution * restitution) * 36;
-  return {(before_J - world.kinetic_energy() - truth_J) / before_J,
+  const double theory_J = 0.5 * reduced_kg * (1 - restitution * restitution) * 36;
+  return {(before_J - world.kinetic_energy() - theory_J) / before_J,
           (world.momentum() - momentum).norm() / (5 * a.mass_kg + b.mass_kg)};
 }
 Measure lost_energy(double restitution) {
@@ -77,15 +77,14 @@ double momentum_of_all(const Preset& preset) {
   return worst;
 }
 
-/// Five balls in a row, so far apart, `struck` of which arrive at 1 m/s: how far any speed is off
-/// from as many that leave.
+/// Largest error of a speed in a cradle of five balls, `struck` of which arrive at 1 m/s.
 Measure cradle(double gap_m, int struck) {
   return [=](const Preset& preset) {
     PresetWorld world(preset, Vec3::Zero());
     for (int i = 0; i < 5; ++i) {
-      const bool comes = i < struck;
-      const Vec3 at(i * (0.2 + gap_m) - (comes ? 0.3 : 0), 0, 0);
-      world.add(elastic(W::moving(W::sphere(0.1, at), Vec3(comes ? 1 : 0, 0, 0))));
+      const bool arrives = i < struck;
+      const Vec3 at(i * (0.2 + gap_m) - (arrives ? 0.3 : 0), 0, 0);
+      world.add(elastic(W::moving(W::sphere(0.1, at), Vec3(arrives ? 1 : 0, 0, 0))));
     }
     world.run(1.5);
     double worst = 0;
@@ -98,7 +97,7 @@ Measure cradle(double gap_m, int struck) {
   };
 }
 
-/// The most that a cube turns which is dropped flat from 1 m.
+/// Largest angular speed of a cube that falls flat from 1 m.
 double spin_of_dropped_cube(const Preset& preset) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 0.5, 0.6));
@@ -120,8 +119,7 @@ double energy_of_ten_cubes(const Preset& preset) {
   return most_J / first_J - 1;
 }
 
-/// Two boxes that turn and meet off-centre at this speed, twenty pairs: the worst change of angular
-/// momentum.
+/// Largest relative change of angular momentum of twenty pairs of rotating boxes off-centre.
 Measure hulls_off_centre(double speed_m_s, double restitution) {
   return [=](const Preset& preset) {
     double worst = 0;
@@ -145,7 +143,7 @@ Measure hulls_off_centre(double speed_m_s, double restitution) {
   };
 }
 
-/// Elastic balls in a box for ten seconds: change of energy.
+/// Relative change of energy of elastic balls in a box in ten seconds.
 double balls_in_box(const Preset& preset) {
   PresetWorld world(preset, Vec3::Zero());
   for (int axis = 0; axis < 3; ++axis) {

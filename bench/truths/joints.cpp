@@ -1,4 +1,4 @@
-// What hangs in joints: pendulums, tops, chains.
+// Validation of joints: pendulums, tops and chains.
 #include <algorithm>
 #include <cmath>
 
@@ -29,13 +29,13 @@ double pendulum_period(const Preset& preset) {
     }
     before = x;
   });
-  // About the pivot: side²/6 + arm² per mass; the amplitude adds angle²/16.
+  // Inertia about the pivot per mass is side²/6 + arm²; the amplitude adds angle²/16.
   const double truth =
       2 * kPi * std::sqrt((side * side / 6 + arm * arm) / (kG * arm)) * (1 + angle * angle / 16);
   return (last_s - first_s) / (crossings - 1) / truth - 1;
 }
 
-/// Two rods of 1 m let go level: how far the energy strays, of m g l.
+/// Largest deviation of energy, in m g l, of two rods of 1 m that fall from the horizontal.
 double double_pendulum(const Preset& preset) {
   PresetWorld world(preset);
   const BodyDesc rod = W::box(Vec3(1, 0.1, 0.1), Vec3(0.5, 0, 0));
@@ -51,11 +51,11 @@ double double_pendulum(const Preset& preset) {
   return worst_J / (rod.mass_kg * kG * 1);
 }
 
-/// Two boxes in a fixed joint that turn at 20 rad/s, free, for 10 s.
-struct Pair {
+/// Errors of two boxes in a fixed joint that rotate freely at 20 rad/s for 10 s.
+struct PairErrors {
   double energy = 0, spin = 0;
 };
-Pair fixed_pair(const Preset& preset) {
+PairErrors fixed_pair(const Preset& preset) {
   PresetWorld world(preset, Vec3::Zero());
   const Vec3 spin(1, 20, 3), at_a(-0.5, 0, 0), at_b(0.5, 0.1, 0);
   const BodyId a = world.add(W::moving(W::box(Vec3(0.9, 0.4, 0.3), at_a), spin.cross(at_a), spin));
@@ -69,8 +69,8 @@ Pair fixed_pair(const Preset& preset) {
           (world.angular_momentum() - first).norm() / first.norm()};
 }
 
-/// A top, a plate of 0.4 m whose centre is 0.3 m above its point, that leans and turns about its
-/// axis so fast.
+/// A leaning spinning top: a plate of 0.4 m whose centre is 0.3 m above the pivot. `across` and
+/// `along` are its moments of inertia about the pivot.
 struct Top {
   Top(const Preset& preset, double lean_rad, double spin_rad_s) : world(preset) {
     const Quat turn(Eigen::AngleAxisd(lean_rad, Vec3::UnitZ()));
@@ -80,17 +80,17 @@ struct Top {
     across = desc.inertia_B(0, 0) + desc.mass_kg * kArm_m * kArm_m;
     along = desc.inertia_B(1, 1);
     moment = desc.mass_kg * kG * kArm_m;
-    // Steady precession, the slow root of across Ω² cos θ − along ω Ω + m g l = 0.
-    const double cos = axis.y(), moves = along * spin_rad_s;
-    const double root = moves * moves - 4 * across * cos * moment;
-    precession_rad_s = root > 0 ? (moves - std::sqrt(root)) / (2 * across * cos) : 0;
+    // Steady precession is the smaller root Ω of across Ω² cos θ − along ω Ω + m g l = 0.
+    const double cos = axis.y(), axial_momentum = along * spin_rad_s;
+    const double root = axial_momentum * axial_momentum - 4 * across * cos * moment;
+    precession_rad_s = root > 0 ? (axial_momentum - std::sqrt(root)) / (2 * across * cos) : 0;
     desc.angular_velocity_W =
         precession_rad_s * Vec3::UnitY() + (spin_rad_s - precession_rad_s * cos) * axis;
     desc.velocity_W = desc.angular_velocity_W.cross(desc.X_WB.position);
     id = world.add(desc);
     world.physics().join(joint_at(world, JointKind::kBall, {}, id, Vec3::Zero()));
   }
-  Vec3 place() const { return world.state(id).X_WB.position; }
+  Vec3 center() const { return world.state(id).X_WB.position; }
 
   static constexpr double kArm_m = 0.3;
   PresetWorld world;
@@ -102,9 +102,9 @@ struct Top {
 double precession(const Preset& preset) {
   Top top(preset, 0.3, 60);
   double angle = 0, time_s = 0;
-  Vec3 last = top.place();
+  Vec3 last = top.center();
   top.world.watch(4, [&] {
-    const Vec3 now = top.place();
+    const Vec3 now = top.center();
     angle += std::atan2(now.x() * last.z() - now.z() * last.x(),
                         last.x() * now.x() + last.z() * now.z());
     last = now;
@@ -113,12 +113,12 @@ double precession(const Preset& preset) {
   return angle / time_s / top.precession_rad_s - 1;
 }
 
-/// A top that stands upright but for a touch: the spin from which on it sleeps.
+/// Relative error of the least spin at which an almost upright top sleeps, that is, stays upright.
 double sleeping_top(const Preset& preset) {
   const auto sleeps = [&](double spin_rad_s) {
     Top top(preset, 2e-3, spin_rad_s);
     double lowest_m = Top::kArm_m;
-    top.world.watch(8, [&] { lowest_m = std::min(lowest_m, top.place().y()); });
+    top.world.watch(8, [&] { lowest_m = std::min(lowest_m, top.center().y()); });
     return lowest_m > Top::kArm_m * std::cos(0.2);
   };
   const Top any(preset, 0, 100);
@@ -126,8 +126,8 @@ double sleeping_top(const Preset& preset) {
   return threshold(0.94, 1.06, 6, [&](double part) { return sleeps(part * truth); }) - 1;
 }
 
-/// Twenty links of 0.2 m, from the origin sideways or down, and a ball so many times as heavy as
-/// one: the most that the joints gape in five seconds, of the length.
+/// Largest sum of joint separations in five seconds, relative to the length, of a chain of twenty
+/// links of 0.2 m in the direction `along` with a ball that is `ratio` times as heavy as a link.
 double chain_stretch(const Preset& preset, double ratio, const Vec3& along) {
   PresetWorld world(preset);
   constexpr double kLink_m = 0.2, kRadius_m = 0.3;

@@ -1,4 +1,4 @@
-// Slow loads and spin against the theory of beams: what breaks, at which load, and where.
+// Validation of slow loads and rotation of beams: breaking load and place of the break.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,7 +18,7 @@ constexpr double kStrength_Pa = 1e6, kWidth_m = 0.2, kLength_m = 2;
 constexpr int kAlong = 20, kAcross = 2;  // convexes of a beam
 constexpr MaterialIndex kBrittle{0}, kSteel{1};
 
-/// Nothing in it but two materials: one that loads break, and one that nothing does.
+/// Returns a scene with two materials only: material 0 breaks under load, material 1 does not.
 Scene empty_scene(const Preset& preset, double brittle_kg_m3, double steel_kg_m3) {
   Scene scene;
   Material brittle, steel;
@@ -44,7 +44,7 @@ void add_boxes(const Vec3& min, const Vec3& size, int along, bool anchored, Mate
   }
 }
 
-/// A beam along x from the origin on; held by what lies before that, if it is.
+/// Returns a beam along x from the origin; if `held`, with an anchored part at x < 0.
 Solid beam(bool held, MaterialIndex material = kBrittle) {
   std::vector<Part> parts;
   const Vec3 size(kLength_m, kWidth_m, kWidth_m);
@@ -53,7 +53,7 @@ Solid beam(bool held, MaterialIndex material = kBrittle) {
   return {"beam", scenes::make_compound(std::move(parts)), {}};
 }
 
-/// How many bodies there are after a second more than at first.
+/// Number of bodies that a second of simulation adds.
 std::size_t new_bodies(Scene scene) {
   const auto simulation = scenes::make_simulation(std::move(scene));
   std::size_t first = 0, last = 0;
@@ -64,32 +64,36 @@ std::size_t new_bodies(Scene scene) {
   return last - first;
 }
 
-/// The least load that breaks, over the truth; 1.49 if none does up to 1.5.
-double limit(const std::function<bool(double)>& breaks) { return threshold(0.5, 1.5, 6, breaks); }
+/// Returns the least load that breaks, divided by theory; 1.49 if no load up to 1.5 does.
+double least_breaking_load(const std::function<bool(double)>& breaks) {
+  return threshold(0.5, 1.5, 6, breaks);
+}
 
-enum class Hung { kResting, kRope, kFixed, kRootInJoint };
+enum class Attachment { kResting, kRope, kFixed, kRootInJoint };
 
-/// The stress at the root is 6 F a/(b h²). A joint at the root holds the first layer of convexes,
-/// so the root is where that ends.
-bool cantilever_breaks(const Preset& preset, Hung how, double part) {
-  const bool in_joint = how == Hung::kRootInJoint;
+/// Returns true if a cantilever breaks under `load_factor` times the load of theory, whose stress
+/// at the root is 6 F a/(b h²). A joint at the root holds the first convexes, so the root is at
+/// their end.
+bool cantilever_breaks(const Preset& preset, Attachment how, double load_factor) {
+  const bool in_joint = how == Attachment::kRootInJoint;
   const double side_m = 0.2, arm_m = kLength_m - 0.5 * side_m;
   const double root_m = in_joint ? kLength_m / kAlong : 0;
-  const double force_N = part * kStrength_Pa * std::pow(kWidth_m, 3) / (6 * (arm_m - root_m));
+  const double force_N =
+      load_factor * kStrength_Pa * std::pow(kWidth_m, 3) / (6 * (arm_m - root_m));
   Scene scene = empty_scene(preset, 1, force_N / kG / std::pow(side_m, 3));
   scene.solids = {beam(!in_joint)};
   const Vec3 half = Vec3::Constant(0.5 * side_m);
   Vec3 center(arm_m, -0.3, 0.5 * kWidth_m);
-  if (how == Hung::kResting) center.y() = kWidth_m + 0.5 * side_m;
+  if (how == Attachment::kResting) center.y() = kWidth_m + 0.5 * side_m;
   scene.solids.push_back(
       {"load", scenes::make_compound({{make_box(-half, half), kSteel}}), {center, {}}});
   scene.solids.back().X_WR.rotation.setIdentity();
   Joint joint;
   joint.a = 0, joint.b = 1;
-  joint.kind = how == Hung::kRope ? JointKind::kRope : JointKind::kFixed;
+  joint.kind = how == Attachment::kRope ? JointKind::kRope : JointKind::kFixed;
   joint.at_W = Vec3(arm_m, 0.05, 0.5 * kWidth_m);
   joint.to_W = center;
-  if (how != Hung::kResting) scene.joints = {joint};
+  if (how != Attachment::kResting) scene.joints = {joint};
   if (in_joint) {
     Joint root;
     root.kind = JointKind::kFixed;
@@ -99,16 +103,18 @@ bool cantilever_breaks(const Preset& preset, Hung how, double part) {
   }
   return new_bodies(std::move(scene)) > 0;
 }
-Measure cantilever(Hung how) {
+Measure cantilever(Attachment how) {
   return [=](const Preset& p) {
-    return limit([&](double part) { return cantilever_breaks(p, how, part); }) - 1;
+    return least_breaking_load(
+               [&](double load_factor) { return cantilever_breaks(p, how, load_factor); }) -
+           1;
   };
 }
 
-/// A bar that hangs in a joint by one end and holds a weight in another joint by the other: the
-/// stress is F/A throughout.
-bool hanging_bar_tears(const Preset& preset, JointKind kind, double part) {
-  const double side_m = 0.3, force_N = part * kStrength_Pa * kWidth_m * kWidth_m;
+/// Returns true if a bar with a joint at each end breaks under a weight; the stress is F/A
+/// throughout.
+bool hanging_bar_tears(const Preset& preset, JointKind kind, double load_factor) {
+  const double side_m = 0.3, force_N = load_factor * kStrength_Pa * kWidth_m * kWidth_m;
   Scene scene = empty_scene(preset, 100, force_N / kG / std::pow(side_m, 3));
   scene.gravity_W = Vec3(kG, 0, 0);
   scene.solids = {beam(false)};
@@ -132,11 +138,13 @@ bool hanging_bar_tears(const Preset& preset, JointKind kind, double part) {
 }
 Measure hanging_bar(JointKind kind) {
   return [=](const Preset& p) {
-    return limit([&](double part) { return hanging_bar_tears(p, kind, part); }) - 1;
+    return least_breaking_load(
+               [&](double load_factor) { return hanging_bar_tears(p, kind, load_factor); }) -
+           1;
   };
 }
 
-constexpr const char* kBlow = R"(
+constexpr const char* kStruckCantilever = R"(
 [scene]
 description = "What strikes the tip of a cantilever, and what the cantilever is made of."
 duration_s = 1
@@ -153,22 +161,22 @@ radius_m = 0.1
 
 constexpr double kDensity = 2000;
 
-Measure spinning(const std::function<Solid()>& solid, double bursts_rad_s) {
+Measure spinning(const std::function<Solid()>& solid, double theory_rad_s) {
   return [=](const Preset& preset) {
-    const double part = limit([&](double stress) {
+    const double load_factor = least_breaking_load([&](double stress) {
       Scene scene = empty_scene(preset, kDensity, kDensity);
       scene.gravity_W.setZero();
       scene.solids = {solid()};
-      scene.solids[0].angular_velocity_W = Vec3(0, std::sqrt(stress) * bursts_rad_s, 0);
+      scene.solids[0].angular_velocity_W = Vec3(0, std::sqrt(stress) * theory_rad_s, 0);
       return new_bodies(std::move(scene)) > 0;
     });
-    return part - 1;
+    return load_factor - 1;
   };
 }
 
 Solid rod() { return beam(false); }
 
-/// Fewer convexes than what presses on fragments is looked at for.
+/// Returns a rod of fewer convexes than fragments need for an evaluation of contact forces.
 Solid short_rod() {
   std::vector<Part> parts;
   for (int i = 0; i < 8; ++i) {
@@ -178,7 +186,7 @@ Solid short_rod() {
   return {"rod", scenes::make_compound(std::move(parts)), {}};
 }
 
-/// Of wedges about y, 1 m in mean radius.
+/// Returns a ring of wedges about y with a mean radius of 1 m.
 Solid ring() {
   std::vector<Part> parts;
   constexpr int kWedges = 24;
@@ -195,10 +203,10 @@ Solid ring() {
   return {"ring", scenes::make_compound(std::move(parts)), {}};
 }
 
-/// A cantilever of concrete that a ball of steel strikes at its tip: the length that is left
-/// standing, of all. It is bent most where it is held.
-double left_standing(const Preset& preset) {
-  Scene scene = scenes::parse_scene(kBlow, "blow.toml", {preset.name, {}});
+/// Remaining length of a concrete cantilever, relative to the whole, after a steel ball hits its
+/// tip. The moment is largest at the clamp.
+double remaining_length(const Preset& preset) {
+  Scene scene = scenes::parse_scene(kStruckCantilever, "blow.toml", {preset.name, {}});
   const MaterialIndex concrete = scene.solids[0].compound.convexes[0]->material;
   scene.solids = {beam(true, concrete)};
   const auto simulation = scenes::make_simulation(std::move(scene));
@@ -222,13 +230,13 @@ Truths load_truths() {
   const double ring_rad_s = std::sqrt(kStrength_Pa / kDensity);
   return {
       truth(34, "cantilever under a load that rests on it: limit", "", beams, 0.1,
-            cantilever(Hung::kResting), {0.083, 0.083, 0.083, 0.059}),
-      truth(34, "cantilever under a load on a rope: limit", "", beams, 0.1, cantilever(Hung::kRope),
-            {0.083, 0.083, 0.083, 0.059}),
+            cantilever(Attachment::kResting), {0.083, 0.083, 0.083, 0.059}),
+      truth(34, "cantilever under a load on a rope: limit", "", beams, 0.1,
+            cantilever(Attachment::kRope), {0.083, 0.083, 0.083, 0.059}),
       truth(34, "cantilever under a load in a fixed joint: limit", "", beams, 0.1,
-            cantilever(Hung::kFixed), {0.083, 0.083, 0.083, 0.059}),
+            cantilever(Attachment::kFixed), {0.083, 0.083, 0.083, 0.059}),
       truth(34, "cantilever whose root is in a fixed joint: limit", "", beams, 0.1,
-            cantilever(Hung::kRootInJoint), {0.083, 0.083, 0.083, 0.113}),
+            cantilever(Attachment::kRootInJoint), {0.083, 0.083, 0.083, 0.113}),
       truth(34, "bar between two ropes: limit", "", "σ = F/A", 0.1, hanging_bar(JointKind::kRope),
             {0.059, 0.083, 0.083, 0.059}),
       truth(34, "bar between two fixed joints: limit", "", "σ = F/A", 0.1,
@@ -242,7 +250,7 @@ Truths load_truths() {
       truth(35, "spinning ring: stress when it bursts", "", "σ = ρ ω² r²", 0.1,
             spinning(ring, ring_rad_s), {0.036, 0.036, 0.036, 0.036}),
       truth(36, "cantilever struck at its tip: length left standing", "", "largest moment", 0.1,
-            left_standing, {0.01, 0.01, 0.01, 0.01}),
+            remaining_length, {0.01, 0.01, 0.01, 0.01}),
   };
 }
 

@@ -1,5 +1,5 @@
-// Hard strikers through walls, slabs and panes: exit speeds and limits of perforation against
-// published formulas, and what is left standing.
+// Validation of perforation of walls, slabs and panes by hard balls: exit speeds and limit speeds
+// compared with published formulas, and the fraction that is left standing.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,7 +16,7 @@
 namespace sunder::truths {
 namespace {
 
-/// A plate that its foot holds, and a steel ball on its way to the middle of it.
+/// A plate that is anchored at its foot, and a steel ball that hits its middle.
 struct Shot {
   const char* material;
   double compressive_Pa, density_kg_m3, reinforcement_percent;
@@ -25,8 +25,8 @@ struct Shot {
   int seeds;
 };
 struct Outcome {
-  double exit_m_s = 0;  ///< Of the worst of the seeds; 0: the ball did not come through.
-  double standing = 1;  ///< Share of the plate's mass that is where it was, of the worst.
+  double exit_m_s = 0;  ///< Exit speed of the worst seed; 0 if the ball did not pass.
+  double standing = 1;  ///< Least volume fraction of the plate that is still anchored.
 };
 
 double ball_kg(const Shot& shot) {
@@ -42,7 +42,7 @@ double limit_m_s(const Shot& shot) {
                    std::cbrt(shot.density_kg_m3) * std::pow(slenderness, 4 / 3.));
 }
 
-/// Exit speed by Recht and Ipson (1963), for a plug of the ball's section.
+/// Exit speed by Recht and Ipson (1963) for a plug of the ball's cross-section.
 double theory_m_s(const Shot& shot) {
   const double plug_kg =
       std::numbers::pi * shot.radius_m * shot.radius_m * shot.thickness_m * shot.density_kg_m3;
@@ -50,7 +50,7 @@ double theory_m_s(const Shot& shot) {
   return std::sqrt(std::max(0.0, v * v - limit * limit)) / (1 + plug_kg / ball_kg(shot));
 }
 
-Outcome fire(const Shot& shot, const Preset& preset, int seed) {
+Outcome simulate_shot(const Shot& shot, const Preset& preset, int seed) {
   const double gap_m = std::max(0.02, 0.002 * shot.speed_m_s);
   const double path_m = 2 * gap_m + 2 * shot.thickness_m + 4 * shot.radius_m;
   const double duration_s = std::min(1.0, 0.1 + 8 * path_m / shot.speed_m_s);
@@ -83,8 +83,8 @@ Outcome fire(const Shot& shot, const Preset& preset, int seed) {
   return outcome;
 }
 
-/// Speed of a steel ball behind the back wall of a house, which it meets beside a window; 0: it did
-/// not come through. By theory as Shot has it.
+/// Returns the speed of a ball behind a house wall that it hits beside a window; 0 if it did not
+/// pass.
 double exit_of_house(double radius_m, double speed_m_s, int seed, const Preset& preset) {
   const double wall_m = 0.3;
   const std::string text =
@@ -105,15 +105,15 @@ double exit_of_house(double radius_m, double speed_m_s, int seed, const Preset& 
   return 0;
 }
 
-/// The worst of eight seeds.
+/// Relative error of the exit speed for the worst of eight seeds; theory is that of theory_m_s().
 Measure exit_speed_of_house(double radius_m, double speed_m_s) {
   return [=](const Preset& preset) {
     Shot shot = {"brick", 8e6, 1900, 0, 8, 6, 0.3, 1.6, radius_m, speed_m_s, 8};
     const double theory = theory_m_s(shot);
     double worst = 0;
     for (int seed = 1; seed <= shot.seeds; ++seed) {
-      const double off = exit_of_house(radius_m, speed_m_s, seed, preset) / theory - 1;
-      if (std::abs(off) > std::abs(worst)) worst = off;
+      const double error = exit_of_house(radius_m, speed_m_s, seed, preset) / theory - 1;
+      if (std::abs(error) > std::abs(worst)) worst = error;
     }
     return worst;
   };
@@ -121,14 +121,14 @@ Measure exit_speed_of_house(double radius_m, double speed_m_s) {
 
 const Outcome& worst_of(const Shot& shot, const Preset& preset) {
   static std::map<std::tuple<std::string, double, double, double, double, std::string>, Outcome>
-      known;
-  const auto [place, is_new] = known.try_emplace(
+      cache;
+  const auto [place, is_new] = cache.try_emplace(
       {shot.material, shot.thickness_m, shot.block_m, shot.radius_m, shot.speed_m_s, preset.name});
   Outcome& worst = place->second;
   if (!is_new) return worst;
   const double theory = theory_m_s(shot);
   for (int seed = 1; seed <= shot.seeds; ++seed) {
-    const Outcome one = fire(shot, preset, seed);
+    const Outcome one = simulate_shot(shot, preset, seed);
     if (seed == 1 || std::abs(one.exit_m_s - theory) > std::abs(worst.exit_m_s - theory))
       worst.exit_m_s = one.exit_m_s;
     worst.standing = std::min(worst.standing, one.standing);
@@ -155,22 +155,21 @@ Measure share_fallen(const std::vector<Shot>& shots) {
   };
 }
 
-/// Logarithm of the speed from which a ball comes through over that of the formula for reinforced
-/// concrete.
+/// Logarithm of the limit speed found, divided by that of the formula for reinforced concrete.
 Measure limit_of_concrete(double thickness_m, double radius_m) {
   return [=](const Preset& preset) {
     Shot shot{"concrete", 3e7, 2400, 0.7, 3, 3, thickness_m, 0, radius_m, 0, 1};
     const double limit = limit_m_s(shot);
     const double found = threshold(0.4 * limit, 2.5 * limit, 7, [&](double speed_m_s) {
       shot.speed_m_s = speed_m_s;
-      return fire(shot, preset, 1).exit_m_s > 0;
+      return simulate_shot(shot, preset, 1).exit_m_s > 0;
     });
     return std::log(found / limit);
   };
 }
 
-/// Shots at walls of masonry, stone and concrete from a tenth of a metre to almost a metre thick,
-/// with balls of 4 kg to 2 t, where the formula holds: from a third of a ball's width to four.
+/// Shots at walls of masonry, stone and concrete, 0.05 to 0.8 m thick, with balls of 4 kg to 2 t,
+/// in the formula's range of thickness: a third of the ball's diameter to four diameters.
 const std::vector<Shot>& grid() {
   static const std::vector<Shot> kAll = [] {
     std::vector<Shot> all;
@@ -199,8 +198,8 @@ const std::vector<Shot>& grid() {
   return kAll;
 }
 
-/// The shots of the grid at these multiples of the limit speed.
-std::vector<Shot> of_grid(double least, double most) {
+/// Returns the shots of the grid whose speed is `least` to `most` times the limit speed.
+std::vector<Shot> grid_shots(double least, double most) {
   std::vector<Shot> some;
   std::ranges::copy_if(grid(), std::back_inserter(some), [&](const Shot& shot) {
     const double times = shot.speed_m_s / limit_m_s(shot);
@@ -209,10 +208,10 @@ std::vector<Shot> of_grid(double least, double most) {
   return some;
 }
 
-/// Share of the shots at these multiples of the limit speed that leave the wall at a wrong speed.
+/// Fraction of the shots at `least` to `most` times the limit speed whose exit speed is wrong.
 Measure share_of_grid(double least, double most, bool (*is_wrong)(double exit_m_s, const Shot&)) {
   return [=](const Preset& preset) {
-    const std::vector<Shot> shots = of_grid(least, most);
+    const std::vector<Shot> shots = grid_shots(least, most);
     const auto wrong = std::ranges::count_if(
         shots, [&](const Shot& shot) { return is_wrong(worst_of(shot, preset).exit_m_s, shot); });
     return static_cast<double>(wrong) / static_cast<double>(shots.size());

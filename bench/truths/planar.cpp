@@ -1,5 +1,5 @@
-// Our solver in three dimensions against Box2D in two: what stands in one stands in the other, and
-// comes to rest in the same place.
+// Validation against Box2D: our solver in three dimensions comes to rest in the same positions as
+// Box2D in two, and the same structures stand or fall.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -36,7 +36,7 @@ std::vector<BodyState> solid_rest(const Build& build, const Preset& preset) {
   return states_of(world);
 }
 
-/// The furthest that a block is from where Box2D leaves it, in blocks; a turn moves its corners.
+/// Largest difference of a pose from Box2D's, in blocks; rotation counts by the motion of corners.
 Measure difference(const Build& build, double block_m) {
   return [=](const Preset& preset) {
     const std::vector<BodyState> a = planar_rest(build, block_m), b = solid_rest(build, preset);
@@ -50,8 +50,8 @@ Measure difference(const Build& build, double block_m) {
   };
 }
 
-/// How many of both solvers do not say whether it falls, that is, loses height.
-Measure wrong_verdicts(const Build& build, double block_m, double start_m, bool falls) {
+/// Number of solvers, of both, with a wrong prediction whether the structure falls (loses height).
+Measure wrong_predictions(const Build& build, double block_m, double start_m, bool falls) {
   return [=](const Preset& preset) {
     int wrong = 0;
     for (const auto& rest : {planar_rest(build, block_m), solid_rest(build, preset)}) {
@@ -77,15 +77,15 @@ void build_pyramid(RigidWorld& world) {
       world.add(W::box(Vec3(1, 1, 1), Vec3((i + 0.5 * row) * 1.02, row + 0.5, 0)));
 }
 
-/// A semicircle of 11 stones about a circle of radius 1, `slim` thick.
-Build arch(double slim) {
+/// An arch of 11 stones in a semicircle of radius 1, `thickness` m thick.
+Build arch(double thickness) {
   return [=](RigidWorld& world) {
     world.add(W::with_friction(W::ground(), 1));
-    for (int i = 0; i < 11; ++i) world.add(W::voussoir(i, 11, slim));
+    for (int i = 0; i < 11; ++i) world.add(W::voussoir(i, 11, thickness));
   };
 }
 
-/// Four bricks, each beyond the next by `factor` times what just balances.
+/// A stack of four bricks whose overhangs are `factor` times those in balance.
 Build overhang(double factor) {
   return [=](RigidWorld& world) {
     world.add(W::ground());
@@ -111,13 +111,13 @@ Truths planar_truths() {
       truth(25, "arch of 11: from its rest in the plane, in stones", "", box2d, 0.01,
             difference(arch(0.14), 0.28), {0.001, 0.001, 0.001, 0.001}),
       truth(25, "arch of .09 falls: wrong verdicts", "", both, 0,
-            wrong_verdicts(arch(0.09), 0.28, 1, true), {0, 0, 0, 0}),
+            wrong_predictions(arch(0.09), 0.28, 1, true), {0, 0, 0, 0}),
       truth(25, "arch of .125 stands: wrong verdicts", "", both, 0,
-            wrong_verdicts(arch(0.125), 0.28, 1, false), {0, 0, 0, 0}),
+            wrong_predictions(arch(0.125), 0.28, 1, false), {0, 0, 0, 0}),
       truth(25, "overhang of .96 stands: wrong verdicts", "", both, 0,
-            wrong_verdicts(overhang(0.96), 0.5, 1.7, false), {0, 0, 0, 0}),
+            wrong_predictions(overhang(0.96), 0.5, 1.7, false), {0, 0, 0, 0}),
       truth(25, "overhang of 1.03 falls: wrong verdicts", "", both, 0,
-            wrong_verdicts(overhang(1.03), 0.5, 1.7, true), {0, 0, 0, 0}),
+            wrong_predictions(overhang(1.03), 0.5, 1.7, true), {0, 0, 0, 0}),
   };
 }
 

@@ -1,5 +1,4 @@
-// The presets of scene files for worlds without a scene: a world that never sleeps, advanced as a
-// preset says.
+// The presets of scene files for physics worlds without a scene.
 #pragma once
 
 #include <array>
@@ -11,7 +10,7 @@ namespace sunder::solver {
 
 inline constexpr double kG = 9.81, kPi = 3.14159265358979323846;
 
-/// As scenes::presets() has them; a test compares.
+/// Copy of a preset of scenes::presets(); a test compares them.
 struct Preset {
   const char* name;
   double dt_s;
@@ -23,6 +22,7 @@ inline constexpr std::array<Preset, 4> kPresets = {{{"draft", 1.0 / 60, 8},
                                                     {"accurate", 1.0 / 120, 8},
                                                     {"reference", 1.0 / 480, 4, 4}}};
 
+/// Returns options with gravity and without sleeping.
 inline RigidOptions awake(const Vec3& gravity_W = Vec3(0, -kG, 0)) {
   RigidOptions options;
   options.gravity_W = gravity_W;
@@ -30,6 +30,7 @@ inline RigidOptions awake(const Vec3& gravity_W = Vec3(0, -kG, 0)) {
   return options;
 }
 
+/// A world without sleeping that is advanced with the step, substeps and sweeps of a preset.
 class PresetWorld : public RigidWorld {
  public:
   explicit PresetWorld(const Preset& preset, const Vec3& gravity_W = Vec3(0, -kG, 0))
@@ -37,7 +38,7 @@ class PresetWorld : public RigidWorld {
 
   SolveReport step() { return RigidWorld::step(preset_.dt_s, preset_.substeps); }
   SolveReport run(double time_s) { return RigidWorld::run(time_s, preset_.dt_s, preset_.substeps); }
-  /// Calls visit() after every step of that time.
+  /// Advances the world by `time_s` and calls visit() after every step.
   template <class Visit>
   void watch(double time_s, const Visit& visit) {
     const auto steps = static_cast<int>(std::lround(time_s / preset_.dt_s));

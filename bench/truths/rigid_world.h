@@ -1,5 +1,4 @@
-// Bodies made in one line each, for truths and tests of the solver, and the ledger of momentum and
-// energy.
+// A physics world for validation cases and tests, with short functions that make bodies.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +19,7 @@
 
 namespace sunder::solver {
 
-/// A physics world with the descriptions of what was put in.
+/// A physics world that keeps mass and inertia of the bodies added to it.
 class RigidWorld {
  public:
   explicit RigidWorld(const RigidOptions& options = {}) : physics_(make_rigid_physics(options)) {}
@@ -35,7 +34,7 @@ class RigidWorld {
         Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()).asDiagonal() * (desc.mass_kg / 12);
     return with_hull(desc, make_box(-0.5 * size, 0.5 * size));
   }
-  /// Any convex; its centre of mass comes to `center_W`.
+  /// Returns a body with the shape `convex`, whose centre of mass is placed at `center_W`.
   static BodyDesc hull(const ConvexPolyhedron& convex, const Vec3& center_W,
                        double density = 1000) {
     BodyDesc desc;
@@ -66,13 +65,13 @@ class RigidWorld {
     desc.shapes = {shape};
     return desc;
   }
-  /// Stone `i` of a semicircle of `count` about a circle of radius 1, `slim` thick; it does not
-  /// slide.
-  static BodyDesc voussoir(int i, int count, double slim) {
+  /// Returns stone `i` of a semicircular arch of `count` stones about a circle of radius 1,
+  /// `thickness` m thick. Its friction coefficient is 1.
+  static BodyDesc voussoir(int i, int count, double thickness) {
     std::vector<Vec3> corners;
     for (int end = 0; end < 2; ++end) {
       const SinCos a = sin_cos(std::numbers::pi * (i + end) / count);
-      for (const double radius : {1 - 0.5 * slim, 1 + 0.5 * slim})
+      for (const double radius : {1 - 0.5 * thickness, 1 + 0.5 * thickness})
         for (const double z : {-0.25, 0.25})
           corners.emplace_back(radius * a.cos, radius * a.sin, z);
     }
@@ -93,7 +92,7 @@ class RigidWorld {
     return desc;
   }
 
-  /// The hull for as long as the program runs: it must live until a description is used.
+  /// Copies the hull and keeps the copy until the program ends; a description needs its hull.
   static const ConvexPolyhedron* keep(const ConvexPolyhedron& convex) {
     static std::vector<std::shared_ptr<ConvexPolyhedron>> kept;
     kept.push_back(std::make_shared<ConvexPolyhedron>(convex));
@@ -111,15 +110,15 @@ class RigidWorld {
     for (std::size_t i = 0; i < ids_.size(); ++i)
       if (ids_[i] == id) masses_[i] = -1;
   }
-  /// All in one step, as when solids break.
-  std::vector<BodyId> replace(const std::vector<BodyId>& gone, const std::vector<BodyDesc>& come) {
+  /// Removes and adds bodies in one call, as when a solid breaks.
+  std::vector<BodyId> replace(const std::vector<BodyId>& remove, const std::vector<BodyDesc>& add) {
     for (std::size_t i = 0; i < ids_.size(); ++i)
-      if (std::find(gone.begin(), gone.end(), ids_[i]) != gone.end()) masses_[i] = -1;
-    const std::vector<BodyId> ids = physics_->replace(gone, come);
-    for (std::size_t i = 0; i < come.size(); ++i) {
+      if (std::find(remove.begin(), remove.end(), ids_[i]) != remove.end()) masses_[i] = -1;
+    const std::vector<BodyId> ids = physics_->replace(remove, add);
+    for (std::size_t i = 0; i < add.size(); ++i) {
       ids_.push_back(ids[i]);
-      masses_.push_back(come[i].is_static ? 0 : come[i].mass_kg);
-      inertias_.push_back(bounded_inertia(come[i].inertia_B));
+      masses_.push_back(add[i].is_static ? 0 : add[i].mass_kg);
+      inertias_.push_back(bounded_inertia(add[i].inertia_B));
     }
     return ids;
   }
@@ -167,7 +166,7 @@ class RigidWorld {
         [&](const BodyState& s, double m, const Mat3&) { sum += m * g * s.X_WB.position.y(); });
     return sum;
   }
-  /// Of every bit of every pose and velocity.
+  /// Returns a hash of all bits of poses and velocities of dynamic bodies.
   std::uint64_t hash() const {
     std::uint64_t h = 0;
     for_dynamic([&](const BodyState& s, double, const Mat3&) {
@@ -205,7 +204,8 @@ class RigidWorld {
   std::vector<Mat3> inertias_;
 };
 
-/// Of two bodies as they are, or of one and the world.
+/// Returns a joint at `at_W` between two bodies at their present poses; a missing body is the
+/// world.
 inline JointDesc joint_at(const RigidWorld& world, JointKind kind, BodyId a, BodyId b,
                           const Vec3& at_W, const Vec3& axis_W = Vec3::UnitZ()) {
   JointDesc joint;

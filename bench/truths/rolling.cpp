@@ -1,4 +1,4 @@
-// What rolls, rocks and topples over its edges.
+// Validation of rolling, rocking and toppling.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace sunder::truths {
 namespace {
 
-/// A ball of radius 0.2 m on a slope; level if the slope is 0.
+/// A ball with a radius of 0.2 m on a slope; gravity is rotated instead of the ground.
 struct Roller {
   Roller(const Preset& preset, double slope_rad, double friction, const Vec3& velocity_W,
          double spin_rad_s, double rolling)
@@ -25,14 +25,14 @@ struct Roller {
     const SinCos a = sin_cos(slope_rad);
     return kG * Vec3(a.sin, -a.cos, 0);
   }
-  double way_m() const { return world.state(id).X_WB.position.x(); }
+  double distance_m() const { return world.state(id).X_WB.position.x(); }
   double speed_m_s() const { return world.state(id).velocity_W.x(); }
 
   PresetWorld world;
   BodyId id;
 };
 
-/// It rolls from 2 v / 7 mu g = 0.68 s.
+/// The ball rolls without sliding after 2 v / 7 mu g = 0.68 s.
 double slip_to_roll(const Preset& preset) {
   Roller ball(preset, 0, 0.3, Vec3(7, 0, 0), 0, 0);
   ball.world.run(1.5);
@@ -45,28 +45,29 @@ double rolls_down(const Preset& preset) {
   return ball.speed_m_s() / (2 * 5.0 / 7 * kG * sin_cos(0.2).sin) - 1;
 }
 
-/// Energy 7/10 m v² against the force mu_r m g that its torque amounts to.
+/// The energy 7/10 m v² is spent against the force mu_r m g, equivalent to the resisting torque.
 double rolling_distance(const Preset& preset) {
   const double rolling = 0.05, speed_m_s = 2;
   Roller ball(preset, 0, 0.8, Vec3(speed_m_s, 0, 0), speed_m_s / 0.2, rolling);
   ball.world.run(7);
-  return ball.way_m() * rolling * kG / (0.7 * speed_m_s * speed_m_s) - 1;
+  return ball.distance_m() * rolling * kG / (0.7 * speed_m_s * speed_m_s) - 1;
 }
 
-/// How far a ball rolls in two seconds on a slope so many times as steep as its resistance holds.
-double rolls_m(const Preset& preset, double steep) {
+/// Returns the distance in m that a ball rolls in two seconds on a slope of `slope_factor` times
+/// the angle that its rolling resistance holds.
+double rolled_m(const Preset& preset, double slope_factor) {
   const double rolling = 0.1;
-  Roller ball(preset, steep * std::atan(rolling), 0.8, Vec3::Zero(), 0, rolling);
+  Roller ball(preset, slope_factor * std::atan(rolling), 0.8, Vec3::Zero(), 0, rolling);
   ball.world.run(0.5);
-  const double start_m = ball.way_m();
+  const double start_m = ball.distance_m();
   ball.world.run(2);
-  return ball.way_m() - start_m;
+  return ball.distance_m() - start_m;
 }
 
-/// A block that stands free, h = 1 m and b = 0.2 m, tilted by half of what it can take.
+/// Motion of a free-standing block, h = 1 m and b = 0.2 m, from half of its critical tilt.
 struct Rocking {
-  double quarter_s = 0;  ///< Until it first stands upright.
-  double tilt_rad = 0;   ///< The most to the other side.
+  double quarter_s = 0;  ///< Time until the block is first upright.
+  double tilt_rad = 0;   ///< Largest tilt to the other side.
 };
 constexpr double kAlpha_rad = 0.19739555984988;  // atan(b/h)
 constexpr double kTilt_rad = 0.5 * kAlpha_rad;
@@ -76,7 +77,7 @@ Rocking rock(const Preset& preset) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 1));
   const Quat turn(Eigen::AngleAxisd(-kTilt_rad, Vec3::UnitZ()));
-  const Vec3 foot(0.1, 0, 0);  // the corner it turns about
+  const Vec3 foot(0.1, 0, 0);  // corner that it rotates about
   BodyDesc block = W::with_friction(W::box(Vec3(0.2, 1, 0.4), foot + turn * Vec3(-0.1, 0.5, 0)), 1);
   block.X_WB.rotation = turn;
   const BodyId id = world.add(block);
@@ -94,7 +95,7 @@ Rocking rock(const Preset& preset) {
   return rocking;
 }
 
-/// θ'' = −p² sin(α − θ) from rest, without the small angles of Housner's acosh.
+/// Integrates θ'' = −p² sin(α − θ) from rest; Housner's acosh is for small angles only.
 double rocking_quarter_s() {
   double tilt_rad = kTilt_rad, speed = 0, time_s = 0;
   const double dt_s = 1e-5;
@@ -105,7 +106,7 @@ double rocking_quarter_s() {
   return time_s;
 }
 
-/// ω⁺/ω⁻ by the energies of both tilts.
+/// Relative error of ω⁺/ω⁻ in the impact, from the potential energies of both tilts.
 double rocking_ratio(const Preset& preset) {
   const auto energy = [](double tilt_rad) {
     return std::cos(kAlpha_rad - tilt_rad) - std::cos(kAlpha_rad);
@@ -115,12 +116,12 @@ double rocking_ratio(const Preset& preset) {
   return ratio / (1 - 1.5 * sin * sin) - 1;
 }
 
-/// A prism of 16 edges, radius 0.5 m, rolls down 20° without sliding, slowly enough not to fly: its
-/// way in so many seconds.
+/// A prism of 16 edges, radius 0.5 m, that rolls down 20° without sliding, slowly enough not to
+/// lift off, and the distance that it covers in kRollTime_s.
 constexpr int kEdges = 16;
-constexpr double kSlope_rad = 20 * kPi / 180, kDown_s = 0.9;
+constexpr double kSlope_rad = 20 * kPi / 180, kRollTime_s = 0.9;
 
-double prism_way_m(const Preset& preset) {
+double prism_distance_m(const Preset& preset) {
   PresetWorld world(preset, Roller::gravity(kSlope_rad));
   world.add(W::with_friction(W::ground(), 1));
   std::vector<Vec3> corners;
@@ -131,28 +132,29 @@ double prism_way_m(const Preset& preset) {
   const double apothem = 0.5 * std::cos(kPi / kEdges);
   const BodyId id =
       world.add(W::with_friction(W::hull(make_hull(corners), Vec3(0, apothem, 0)), 1));
-  world.run(kDown_s);
+  world.run(kRollTime_s);
   return world.state(id).X_WB.position.x();
 }
 
-/// The same pivot by pivot: an impact leaves (I + R² cos 2π/n) / (I + R²) of the spin.
-double pivoting_way_m() {
+/// Distance of the same motion as a sequence of pivots; an impact leaves (I + R² cos 2π/n) / (I +
+/// R²) of the angular velocity.
+double pivoting_distance_m() {
   const double R = 0.5, half = kPi / kEdges, side = 2 * R * std::sin(half);
-  // Of a regular polygon: m R²/2 (1 − 2/3 sin² π/n).
+  // Inertia of a regular polygon: m R²/2 (1 − 2/3 sin² π/n).
   const double inertia = 0.5 * R * R * (1 - 2.0 / 3 * std::sin(half) * std::sin(half));
-  const double keeps = (inertia + R * R * std::cos(2 * half)) / (inertia + R * R);
+  const double spin_ratio = (inertia + R * R * std::cos(2 * half)) / (inertia + R * R);
   const double q2 = kG * R / (inertia + R * R), dt_s = 1e-5;
   double lean_rad = kSlope_rad - half, spin = 0, pivot_m = R * std::sin(half);
-  for (double t = 0; t < kDown_s; t += dt_s) {
+  for (double t = 0; t < kRollTime_s; t += dt_s) {
     spin += dt_s * q2 * std::sin(lean_rad);
     lean_rad += dt_s * spin;
-    if (lean_rad >= kSlope_rad + half) lean_rad -= 2 * half, spin *= keeps, pivot_m += side;
+    if (lean_rad >= kSlope_rad + half) lean_rad -= 2 * half, spin *= spin_ratio, pivot_m += side;
   }
   return pivot_m + R * std::sin(lean_rad - kSlope_rad);
 }
 
-/// A column of H/b = 5 that topples from a hair beyond its balance: what its foot slips, and its
-/// spin when it leans by 55°.
+/// Slip of the foot and angular velocity at 55° of a column of H/b = 5 that topples from its
+/// balance.
 struct Toppling {
   double foot_m = 0, spin_rad_s = 0;
 };
@@ -188,7 +190,7 @@ Toppling topple(const Preset& preset) {
   return toppling;
 }
 
-/// Energy: I ω²/2 = m g R (cos(lean − α) at the start − at 55°), about the corner.
+/// Theory: I ω²/2 = m g R (cos(lean − α) at the start − at 55°) about the corner.
 double toppling_spin(const Preset& preset) {
   const double truth = std::sqrt(
       2 * kP2 * (std::cos(kLean_rad - kAlpha_rad) - std::cos(55 * kPi / 180 - kAlpha_rad)));
@@ -206,12 +208,12 @@ Truths rolling_truths() {
       truth(5, "rolling resistance: way to rest", "", "7/10 v² over μ_r g", 0.01, rolling_distance,
             {0.001, 0.001, 0.001, 0.001}),
       truth(5, "ball on 0.98 of the slope that its resistance holds: creep in 2 s", "mm", "statics",
-            0.2, [](const Preset& p) { return 1e3 * rolls_m(p, 0.98); }, {0.51, 0.59, 0.2, 0.19}),
+            0.2, [](const Preset& p) { return 1e3 * rolled_m(p, 0.98); }, {0.51, 0.59, 0.2, 0.19}),
       truth(5, "ball on 1.02 of it: way in 2 s", "", "5/7 g (sin θ − μ_r cos θ) t²/2", 0.02,
             [](const Preset& p) {
               const SinCos a = sin_cos(1.02 * std::atan(0.1));
               const double accel = 5.0 / 7 * kG * (a.sin - 0.1 * a.cos);
-              return rolls_m(p, 1.02) / (accel * (0.5 * 2 + 0.5 * 4)) - 1;
+              return rolled_m(p, 1.02) / (accel * (0.5 * 2 + 0.5 * 4)) - 1;
             },
             {0.055, 0.099, 0.049, 0.0027}),
       truth(13, "rocking block: time to the first impact", "", "Housner 1963, exact angles", 0.01,
@@ -220,7 +222,7 @@ Truths rolling_truths() {
       truth(13, "rocking block: spin that an impact leaves", "", "1 − 1.5 sin²α, Housner 1963",
             0.02, rocking_ratio, {0.085, 0.063, 0.039, 0.015}),
       truth(33, "prism of 16 edges down 20°: way", "", "pivoting, McGeer 1990", 0.01,
-            [](const Preset& p) { return prism_way_m(p) / pivoting_way_m() - 1; },
+            [](const Preset& p) { return prism_distance_m(p) / pivoting_distance_m() - 1; },
             {0.032, 0.01, 0.02, 0.0097}),
       truth(33, "toppling column of 1 to 5: its foot slips", "mm", "pivoting", 1,
             [](const Preset& p) { return 1e3 * topple(p).foot_m; }, {5, 2.6, 3, 0.54}),

@@ -1,4 +1,4 @@
-// Grain in a silo presses on its walls the less below the more there is above (Janssen 1895).
+// Validation of silo pressure (Janssen 1895), which approaches a limit with depth.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +14,8 @@ constexpr double kSilo_m = 0.15, kGrain_m = 0.02;  // radii
 constexpr int kSilos = 4, kGrains = 750, kSides = 16, kBands = 8;
 using Bands = std::array<double, kBands>;
 
-/// What is left of the variance of `y` over x = 0.5 ... when A (1 − e^(−x/λ)) is fitted to it.
-double unexplained(const Bands& y) {
+/// Fraction of the variance of `y` that remains after a fit of A (1 − e^(−x/λ)) at x = 0.5, 1.5 ...
+double unexplained_variance(const Bands& y) {
   double mean = 0, variance = 0, least = 1e30;
   for (const double value : y) mean += value / kBands;
   for (const double value : y) variance += (value - mean) * (value - mean);
@@ -31,8 +31,8 @@ double unexplained(const Bands& y) {
   return least / variance;
 }
 
-/// What presses on the wall of one of them, from the top down.
-Bands filled(const Preset& preset, std::uint64_t seed) {
+/// Returns the horizontal impulse on the wall of one silo by depth, from the top down.
+Bands wall_pressure(const Preset& preset, std::uint64_t seed) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 0.5));
   for (int i = 0; i < kSides; ++i) {
@@ -46,7 +46,7 @@ Bands filled(const Preset& preset, std::uint64_t seed) {
   Random random(seed, 18);
   std::vector<BodyId> grains;
   for (int i = 0; i < kGrains; ++i) {
-    const SinCos turn = sin_cos(2.4 * i);  // the golden angle
+    const SinCos turn = sin_cos(2.4 * i);  // golden angle
     const double radius_m = 0.12 * std::sqrt((i % 20) / 20.0);
     const double size_m = kGrain_m * random.uniform(0.9, 1.1);
     grains.push_back(world.add(W::with_friction(
@@ -67,14 +67,14 @@ Bands filled(const Preset& preset, std::uint64_t seed) {
   return pressure;
 }
 
-/// Of the mean of several: each has arches of its own, by chance.
+/// Unexplained variance of the mean over four silos, because arches form at random in each.
 double silo(const Preset& preset) {
   Bands mean{};
   for (std::uint64_t seed = 1; seed <= kSilos; ++seed) {
-    const Bands one = filled(preset, seed);
+    const Bands one = wall_pressure(preset, seed);
     for (std::size_t band = 0; band < kBands; ++band) mean[band] += one[band] / kSilos;
   }
-  return unexplained(mean);
+  return unexplained_variance(mean);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The scenes of SimBenchmark (Hwangbo et al., leggedrobotics.github.io/SimBenchmark) that are of
-// rigid bodies alone, at its step of 1 ms, with a preset's substeps and sweeps. Its figures are
-// means over all steps of squares: m² summed over all that touches, or J².
+// Scenes of SimBenchmark (Hwangbo et al., leggedrobotics.github.io/SimBenchmark) with rigid bodies
+// only, at its step of 1 ms, with a preset's substeps and sweeps. Its results are means of squares
+// over all steps: m² summed over all contacts, or J².
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ BodyDesc ball(const Vec3& at, double restitution) {
   return W::with_friction(W::sphere(kRadius_m, at, 10 / volume_m3), 0, restitution);
 }
 
-/// "666": 6 x 6 x 6 smooth balls fall a metre, all but in rows.
+/// Adds the scene "666": 6 x 6 x 6 frictionless balls in nearly straight rows that fall 1 m.
 void add_cube(PresetWorld& world, double restitution) {
   world.add(W::with_friction(W::ground(), 0, restitution));
   Random random(42);
@@ -46,7 +46,7 @@ double penetration(const Preset& preset) {
   return sum / steps;
 }
 
-/// The mean square of what the energy is off its start.
+/// Mean square of the deviation of the energy from its start.
 double energy_error(PresetWorld& world, double time_s) {
   const auto energy = [&] { return world.kinetic_energy() + world.potential_energy(kG); };
   const double first_J = energy();
@@ -62,7 +62,7 @@ double elastic_energy(const Preset& preset) {
   return energy_error(world, 10);
 }
 
-/// 7 x 7 balls that bounce from 5 m and meet nobody.
+/// 7 x 7 balls that bounce from a height of 5 m and do not collide with each other.
 double bouncing_energy(const Preset& preset) {
   PresetWorld world(at_a_millisecond(preset));
   world.add(W::with_friction(W::ground(), 0, 1));

@@ -1,4 +1,4 @@
-// Stacks, towers and walls: they stand, do not sink, and press on the floor with their weight.
+// Validation of stacks, towers and walls: they stand, do not sink, and load the ground.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace sunder::truths {
 namespace {
 
-/// Boxes of side 1 on each other; the last is `top_factor` times as heavy.
+/// Adds ground and a stack of boxes of 1 m; the top one is `top_factor` times as heavy.
 std::vector<BodyId> add_stack(RigidWorld& world, int count, double top_factor = 1) {
   world.add(W::ground());
   std::vector<BodyId> boxes;
@@ -17,8 +17,8 @@ std::vector<BodyId> add_stack(RigidWorld& world, int count, double top_factor = 
   return boxes;
 }
 
-/// The furthest that a box of ten is from its place after ten seconds.
-double ten_wander_mm(const Preset& preset) {
+/// Largest displacement of a box in a stack of ten after ten seconds.
+double displacement_of_ten_mm(const Preset& preset) {
   PresetWorld world(preset);
   const std::vector<BodyId> boxes = add_stack(world, 10);
   world.run(10);
@@ -30,7 +30,7 @@ double ten_wander_mm(const Preset& preset) {
   return 1e3 * worst_m;
 }
 
-double ten_move(const Preset& preset) {
+double speed_of_ten(const Preset& preset) {
   PresetWorld world(preset);
   const std::vector<BodyId> boxes = add_stack(world, 10);
   world.run(10);
@@ -39,7 +39,7 @@ double ten_move(const Preset& preset) {
   return fastest;
 }
 
-double fifty_sink(const Preset& preset) {
+double penetration_of_fifty(const Preset& preset) {
   PresetWorld world(preset);
   add_stack(world, 50);
   world.run(3);
@@ -49,8 +49,8 @@ double fifty_sink(const Preset& preset) {
   return deepest_m;
 }
 
-/// What a hundred cubes lack of standing so long.
-double hundred_fall_s(const Preset& preset, double side_m, double most_s, bool sleeping) {
+/// Time by which a tower of a hundred cubes falls before `duration_s`; 0 if it does not fall.
+double missing_standing_s(const Preset& preset, double side_m, double duration_s, bool sleeping) {
   solver::RigidOptions options;
   options.sweeps = preset.sweeps;
   options.sleeping = sleeping;
@@ -59,15 +59,15 @@ double hundred_fall_s(const Preset& preset, double side_m, double most_s, bool s
   BodyId top;
   for (int i = 0; i < 100; ++i)
     top = world.add(W::box(Vec3::Constant(side_m), side_m * Vec3(0, i + 0.5, 0)));
-  const auto steps = static_cast<int>(std::lround(most_s / preset.dt_s));
+  const auto steps = static_cast<int>(std::lround(duration_s / preset.dt_s));
   for (int i = 0; i < steps; ++i) {
-    if (world.state(top).X_WB.position.y() < 98.5 * side_m) return most_s - i * preset.dt_s;
+    if (world.state(top).X_WB.position.y() < 98.5 * side_m) return duration_s - i * preset.dt_s;
     if (world.step(preset.dt_s, preset.substeps).awake == 0) break;
   }
   return 0;
 }
 
-/// How much lower the top is of ten boxes whose weights grow a thousandfold, of their height.
+/// Sinking of the top of ten boxes whose weights grow to a thousandfold, divided by its height.
 double growing_weights_sink(const Preset& preset) {
   PresetWorld world(preset);
   world.add(W::ground());
@@ -75,13 +75,14 @@ double growing_weights_sink(const Preset& preset) {
   double density = 1000;
   for (int i = 0; i < 10; ++i) {
     last = world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0), density));
-    density *= 2.154434690031884;  // 1000 to the ninth part
+    density *= 2.154434690031884;  // 1000 to the power of 1/9
   }
   world.run(20);
   return 1 - world.state(last).X_WB.position.y() / 9.5;
 }
 
-/// Twenty rows of bricks, every other one shifted by half a brick, with half bricks at its ends.
+/// Adds twenty courses of bricks in a running bond, with half bricks at the ends of every other
+/// one.
 BodyId add_wall(RigidWorld& world) {
   const Vec3 whole(0.4, 0.2, 0.2), half(0.2, 0.2, 0.2);
   BodyId middle;
@@ -120,19 +121,19 @@ double pyramid_rms_m_s(const Preset& preset) {
   return std::sqrt(square / static_cast<double>(world.size() - 1));
 }
 
-/// What the floor bears of ten boxes under a heavy top, over a second, beyond their weight; 1 if
-/// they fall.
+/// Impulse on the ground in one second below ten boxes with a heavy top, divided by that of their
+/// weight, less 1; 1 if the stack falls.
 double floor_load(const Preset& preset, double top_factor) {
   PresetWorld world(preset);
   const std::vector<BodyId> boxes = add_stack(world, 10, top_factor);
   const double weight_N = 1000 * (9 + top_factor) * kG;
   world.run(4);
-  double borne_Ns = 0;
+  double ground_Ns = 0;
   const auto steps = static_cast<int>(std::lround(1 / preset.dt_s));
   for (int i = 0; i < steps; ++i)
-    borne_Ns += world.step().external_impulse_Ns.y() + weight_N * preset.dt_s;
+    ground_Ns += world.step().external_impulse_Ns.y() + weight_N * preset.dt_s;
   const bool stands = world.state(boxes.back()).X_WB.position.y() > 9;
-  return stands ? borne_Ns / weight_N - 1 : 1;
+  return stands ? ground_Ns / weight_N - 1 : 1;
 }
 
 }  // namespace
@@ -140,22 +141,24 @@ double floor_load(const Preset& preset, double top_factor) {
 Truths stack_truths() {
   const char* rigid = "rigid";
   return {
-      truth(8, "stack of 10, 10 s: off its place", "mm", rigid, 2, ten_wander_mm,
+      truth(8, "stack of 10, 10 s: off its place", "mm", rigid, 2, displacement_of_ten_mm,
             {0.2, 0.2, 0.2, 0.2}),
-      truth(8, "stack of 10, 10 s: speed", "m/s", rigid, 1e-3, ten_move,
+      truth(8, "stack of 10, 10 s: speed", "m/s", rigid, 1e-3, speed_of_ten,
             {0.0001, 0.0001, 0.0001, 0.0001}),
-      truth(8, "stack of 50: deepest contact, of a side", "", rigid, 0.002, fifty_sink,
+      truth(8, "stack of 50: deepest contact, of a side", "", rigid, 0.002, penetration_of_fifty,
             {0.0002, 0.0002, 0.0002, 0.0002}),
       truth(8, "wall of 1,010 bricks, 10 s: sinks", "mm", rigid, 2, wall_sink_mm,
             {0.2, 0.2, 0.2, 0.2}),
       truth(8, "pyramid of 210, 10 s: rms speed", "m/s", rigid, 1e-3, pyramid_rms_m_s,
             {0.0001, 0.0001, 0.0001, 0.0001}),
       truth(9, "tower of 100 x 1 m, never asleep: falls before 20 s by", "s", rigid, 0,
-            [](const Preset& p) { return hundred_fall_s(p, 1, 20, false); }, {0, 1.4, 0, 0}),
+            [](const Preset& p) { return missing_standing_s(p, 1, 20, false); }, {0, 1.4, 0, 0}),
       truth(9, "tower of 100 x 10 cm: falls before 120 s by", "s", rigid, 0,
-            [](const Preset& p) { return hundred_fall_s(p, 0.1, 120, true); }, {180, 180, 0, 0}),
+            [](const Preset& p) { return missing_standing_s(p, 0.1, 120, true); },
+            {180, 180, 0, 0}),
       truth(9, "tower of 100 x 10 cm, never asleep: falls before 20 s by", "s", rigid, 0,
-            [](const Preset& p) { return hundred_fall_s(p, 0.1, 20, false); }, {30, 30, 24, 17}),
+            [](const Preset& p) { return missing_standing_s(p, 0.1, 20, false); },
+            {30, 30, 24, 17}),
       truth(22, "stack of 10, weights growing to 1,000, 20 s: sinks, of its height", "", rigid,
             0.01, growing_weights_sink, {1.5, 1.5, 0.001, 0.001}),
       truth(22, "stack of 10 under a top of 100: load on the floor", "", "weight", 0.01,

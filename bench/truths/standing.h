@@ -1,4 +1,4 @@
-// Share of the volume of a frame that still belongs to static bodies.
+// Fraction of a frame's volume that belongs to static bodies.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace sunder::truths {
 
-/// The share of all volume, but that of the body `other_key`, that belongs to static bodies; 1
-/// where there is none.
+/// Returns the volume of static bodies divided by the volume of all bodies, without that of body
+/// `other_key`; 1 if there is no volume.
 inline double share_standing(const Frame& frame, std::uint64_t other_key = kGroundKey) {
-  double all_m3 = 0, still_m3 = 0;
+  double all_m3 = 0, static_m3 = 0;
   for (const Instance& instance : frame.instances) {
     const FrameBody& body = frame.bodies[instance.body];
     if (body.key == other_key) continue;
@@ -23,9 +23,9 @@ inline double share_standing(const Frame& frame, std::uint64_t other_key = kGrou
       volume_m3 += double{corner(0).cross(corner(1)).dot(corner(2))} / 6;
     }
     all_m3 += volume_m3;
-    if (body.is_static) still_m3 += volume_m3;
+    if (body.is_static) static_m3 += volume_m3;
   }
-  return all_m3 > 0 ? still_m3 / all_m3 : 1;
+  return all_m3 > 0 ? static_m3 / all_m3 : 1;
 }
 
 }  // namespace sunder::truths

@@ -19,7 +19,7 @@ struct Options {
   bool markdown = false;
 };
 
-/// What one truth came to at one preset.
+/// Result of a case at one preset.
 struct Figure {
   std::size_t preset = 0;
   double value = 0, cpu_s = 0;
@@ -32,7 +32,7 @@ struct Line {
 
 bool misses(double value, double most) { return !(std::abs(value) <= most); }
 
-std::string shortly(double value, int digits) {
+std::string format_short(double value, int digits) {
   char text[32];
   if (std::abs(value) >= 100 && std::abs(value) < 1e6)
     std::snprintf(text, sizeof text, "%.0f", value);
@@ -41,8 +41,8 @@ std::string shortly(double value, int digits) {
   return text;
 }
 
-std::string mark_of(const Truth& truth) {
-  return shortly(truth.mark, 3) + (*truth.unit ? " " : "") + truth.unit;
+std::string format_mark(const Truth& truth) {
+  return format_short(truth.mark, 3) + (*truth.unit ? " " : "") + truth.unit;
 }
 
 Line measure(const Truth& truth, const Options& options) {
@@ -69,20 +69,21 @@ void print_head(const Options& options) {
 
 void print_markdown(const Line& line) {
   const Truth& truth = line.truth;
-  std::printf("| %d | %s | %s | %s |", truth.row, truth.what, truth.source, mark_of(truth).c_str());
+  std::printf("| %d | %s | %s | %s |", truth.row, truth.what, truth.source,
+              format_mark(truth).c_str());
   for (const Figure& figure : line.figures) {
     const char* bold = misses(figure.value, truth.mark) ? "**" : "";
     const char* warned = figure.told.empty() ? "" : " †";
-    std::printf(" %s%s%s%s |", bold, shortly(figure.value, 2).c_str(), bold, warned);
+    std::printf(" %s%s%s%s |", bold, format_short(figure.value, 2).c_str(), bold, warned);
   }
   std::printf("\n");
 }
 
-/// What a user is told, each once, and where it is told first.
+/// Prints each warning once, with the case and preset where it first appears.
 void print_warnings(const std::vector<Line>& lines) {
   std::set<std::string> seen;
   for (const Line& line : lines) {
-    // Finer presets are told the same with other numbers.
+    // Finer presets have the same warnings with other numbers, so only the first preset counts.
     const auto first =
         std::ranges::find_if(line.figures, std::not_fn(&std::string::empty), &Figure::told);
     if (first == line.figures.end() || !seen.insert(first->told).second) continue;
@@ -93,7 +94,7 @@ void print_warnings(const std::vector<Line>& lines) {
 
 void print_plain(const Line& line) {
   const Truth& truth = line.truth;
-  std::printf("%2d %s (mark %s)\n", truth.row, truth.what, mark_of(truth).c_str());
+  std::printf("%2d %s (mark %s)\n", truth.row, truth.what, format_mark(truth).c_str());
   for (const Figure& figure : line.figures) {
     const double bound = truth.bounds[figure.preset];
     std::printf("     %-10s %10.3g %s%s%s   %.1f s\n", kPresets[figure.preset].name, figure.value,
@@ -125,7 +126,7 @@ void write_json(std::FILE* file, const std::vector<Line>& lines) {
   std::fprintf(file, "\n]\n");
 }
 
-/// False if the file cannot be written.
+/// Returns false if the file cannot be written.
 bool write_json(const std::string& name, const std::vector<Line>& lines) {
   std::FILE* file = name == "-" ? stdout : std::fopen(name.c_str(), "w");
   if (file == nullptr) return false;
@@ -151,7 +152,7 @@ int run(const Options& options, const Truths& truths) {
   return 0;
 }
 
-bool known(const std::string& preset) {
+bool is_preset(const std::string& preset) {
   for (const Preset& other : kPresets)
     if (preset == other.name) return true;
   return preset.empty();
@@ -166,7 +167,7 @@ int table_main(int argc, char** argv, const Truths& truths) {
                           {"--preset", &options.preset},
                           {"--json", &options.json},
                           {"--markdown", &options.markdown}}) ||
-      !known(options.preset)) {
+      !is_preset(options.preset)) {
     std::fprintf(stderr,
                  "usage: %s [--only SUBSTRING] [--preset draft|realtime|accurate|reference] "
                  "[--markdown] [--json FILE|-]\n",

@@ -1,12 +1,11 @@
-// Truths measured at every preset, as a table. A missed mark is flagged, and so is a bound that
-// tests hold it to.
+// Table of validation cases at every preset, which marks missed targets and exceeded bounds.
 #pragma once
 
 #include "bench/truths/truth.h"
 
 namespace sunder::truths {
 
-/// The program that prints them:
+/// Main function of the programs that print validation cases:
 ///   [--only SUBSTRING] [--preset NAME] [--markdown] [--json FILE|-]
 int table_main(int argc, char** argv, const Truths& truths);
 

@@ -1,5 +1,4 @@
-// A steel ball of 20 m/s through what breaks: how fast it comes out, into how many pieces, and how
-// deep anything overlaps on the way.
+// Validation of a steel ball of 20 m/s through breakable targets: exit speed, pieces, penetration.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +19,8 @@ using W = solver::RigidWorld;
 
 struct Target {
   const char* name;
-  const char* solid;  ///< About x = 0, its front near z = 0.
-  double radius_m;    ///< Of the ball, which arrives 1.5 m above the ground.
+  const char* solid;  ///< Centred at x = 0, with its front near z = 0.
+  double radius_m;    ///< Radius of the ball, which hits 1.5 m above the ground.
 };
 constexpr Target kAnchoredWall = {"anchored wall", R"(
 [[solid]]
@@ -59,7 +58,7 @@ height_m = 2.6
 enum ShotFigure { kSpeed, kPieces, kDepth, kFigures };
 using Figures = std::array<double, kFigures>;
 
-/// One shot, aimed a little otherwise for every seed.
+/// Simulates one shot; each seed aims at another point.
 Figures shoot(const Target& target, const Preset& preset, std::uint64_t seed) {
   Random random(seed, 27);
   const double x = random.uniform(-0.2, 0.2), y = 1.5 + random.uniform(-0.2, 0.2);
@@ -88,14 +87,14 @@ Figures shoot(const Target& target, const Preset& preset, std::uint64_t seed) {
   return figures;
 }
 
-/// Of eight seeds.
+/// Mean and standard deviation over eight seeds.
 struct Shots {
-  Figures mean{}, scatter{};
+  Figures mean{}, deviation{};
   double deepest_m = 0;
 };
 const Shots& shots(const Target& target, const Preset& preset) {
-  static std::map<std::pair<std::string, std::string>, Shots> known;
-  const auto [place, is_new] = known.try_emplace({target.name, preset.name});
+  static std::map<std::pair<std::string, std::string>, Shots> cache;
+  const auto [place, is_new] = cache.try_emplace({target.name, preset.name});
   if (!is_new) return place->second;
   Shots& all = place->second;
   constexpr int kSeeds = 8;
@@ -109,25 +108,25 @@ const Shots& shots(const Target& target, const Preset& preset) {
     all.deepest_m = std::max(all.deepest_m, one[kDepth]);
   }
   for (std::size_t i = 0; i < kFigures; ++i)
-    all.scatter[i] = std::sqrt(std::max(0.0, square[i] - all.mean[i] * all.mean[i]));
+    all.deviation[i] = std::sqrt(std::max(0.0, square[i] - all.mean[i] * all.mean[i]));
   return all;
 }
 
-/// How far a preset is off the mean of all, over 10 % of that or, if that is more, 1.5 times the
-/// scatter of the seeds.
-Measure off_the_mean(const Target& target, ShotFigure figure) {
+/// Measures the deviation of a preset's mean from the mean of all presets, divided by the larger of
+/// 10 % of that mean and 1.5 times the standard deviation of seeds.
+Measure deviation_from_mean(const Target& target, ShotFigure figure) {
   return [=](const Preset& preset) {
-    double mean = 0, scatter = 0;
+    double mean = 0, deviation = 0;
     for (const Preset& other : kPresets) {
       mean += shots(target, other).mean[figure] / kPresets.size();
-      scatter += shots(target, other).scatter[figure] / kPresets.size();
+      deviation += shots(target, other).deviation[figure] / kPresets.size();
     }
-    return (shots(target, preset).mean[figure] - mean) / std::max(0.1 * mean, 1.5 * scatter);
+    return (shots(target, preset).mean[figure] - mean) / std::max(0.1 * mean, 1.5 * deviation);
   };
 }
-/// One step of a ball that strikes 300 packed boxes at 20 m/s and weighs as much as all of them.
+/// One step of a ball that hits 300 packed boxes at 20 m/s; its mass is that of all boxes.
 struct Impact {
-  double handed_on_m_s = 0;  ///< Speed that the ball lost.
+  double transferred_m_s = 0;  ///< Speed that the ball lost.
   double deepest_m = 0;
 };
 Impact impact(const Preset& preset, int sweeps) {
@@ -138,7 +137,7 @@ Impact impact(const Preset& preset, int sweeps) {
   W world(options);
   for (int i = 0; i < kBoxes; ++i) {
     const int layer = i / (kRow * kRows);
-    const double bond = 0.5 * (layer % 2);  // every other layer is half a box further
+    const double bond = 0.5 * (layer % 2);  // every other layer is shifted by half a box
     const Vec3 at(i % kRow - 4.5 + bond, i / kRow % kRows - 2.5 + bond, -layer - 0.5);
     world.add(W::with_friction(W::box(Vec3::Constant(kSide), kSide * at), 0.6));
   }
@@ -152,11 +151,13 @@ Impact impact(const Preset& preset, int sweeps) {
     all.deepest_m = std::max(all.deepest_m, static_cast<double>(depth));
   return all;
 }
-double impact_handed_on(const Preset& preset) {
+double impact_transfer_error(const Preset& preset) {
   constexpr int kConverged = 256;
-  return impact(preset, preset.sweeps).handed_on_m_s / impact(preset, kConverged).handed_on_m_s - 1;
+  return impact(preset, preset.sweeps).transferred_m_s /
+             impact(preset, kConverged).transferred_m_s -
+         1;
 }
-double impact_overlaps_mm(const Preset& preset) {
+double impact_penetration_mm(const Preset& preset) {
   return 1e3 * impact(preset, preset.sweeps).deepest_m;
 }
 
@@ -168,32 +169,32 @@ Measure deepest_mm(const Target& target) {
 
 Truths through_truths() {
   const char* same = "the same at every preset";
-  const char* allowed = "of 10 % or 1.5 x scatter";
+  const char* normalized = "of 10 % or 1.5 x scatter";
   return {
       truth(27, "ball into 300 packed boxes: what a step hands on", "", "256 sweeps", 0.1,
-            impact_handed_on, {0.18, 0.23, 0.19, 0.11}),
+            impact_transfer_error, {0.18, 0.23, 0.19, 0.11}),
       truth(27, "ball into 300 packed boxes: deepest overlap", "mm", "rigid", 30,
-            impact_overlaps_mm, {7.7, 28, 9.2, 11}),
-      truth(27, "ball through an anchored wall: pieces", allowed, same, 1,
-            off_the_mean(kAnchoredWall, kPieces), {1, 1, 1.6, 1}),
+            impact_penetration_mm, {7.7, 28, 9.2, 11}),
+      truth(27, "ball through an anchored wall: pieces", normalized, same, 1,
+            deviation_from_mean(kAnchoredWall, kPieces), {1, 1, 1.6, 1}),
       truth(27, "ball through an anchored wall: deepest overlap", "mm", "rigid", 10,
             deepest_mm(kAnchoredWall), {140, 120, 20, 30}),
-      truth(27, "ball through a dry wall: exit speed", allowed, same, 1,
-            off_the_mean(kDryWall, kSpeed), {1, 1, 1, 1}),
-      truth(27, "ball through a dry wall: pieces", allowed, same, 1,
-            off_the_mean(kDryWall, kPieces), {1, 1, 1, 1}),
+      truth(27, "ball through a dry wall: exit speed", normalized, same, 1,
+            deviation_from_mean(kDryWall, kSpeed), {1, 1, 1, 1}),
+      truth(27, "ball through a dry wall: pieces", normalized, same, 1,
+            deviation_from_mean(kDryWall, kPieces), {1, 1, 1, 1}),
       truth(27, "ball through a dry wall: deepest overlap", "mm", "rigid", 10, deepest_mm(kDryWall),
             {130, 160, 68, 22}),
-      truth(27, "ball through a slab: exit speed", allowed, same, 1, off_the_mean(kSlab, kSpeed),
-            {1, 1, 1, 1}),
-      truth(27, "ball through a slab: pieces", allowed, same, 1, off_the_mean(kSlab, kPieces),
-            {1, 1, 1, 1}),
+      truth(27, "ball through a slab: exit speed", normalized, same, 1,
+            deviation_from_mean(kSlab, kSpeed), {1, 1, 1, 1}),
+      truth(27, "ball through a slab: pieces", normalized, same, 1,
+            deviation_from_mean(kSlab, kPieces), {1, 1, 1, 1}),
       truth(27, "ball through a slab: deepest overlap", "mm", "rigid", 10, deepest_mm(kSlab),
             {75, 56, 46, 41}),
-      truth(27, "ball through a pane: exit speed", allowed, same, 1, off_the_mean(kPane, kSpeed),
-            {1, 1, 1, 1}),
-      truth(27, "ball through a pane: pieces", allowed, same, 1, off_the_mean(kPane, kPieces),
-            {1, 1.8, 1, 2.4}),
+      truth(27, "ball through a pane: exit speed", normalized, same, 1,
+            deviation_from_mean(kPane, kSpeed), {1, 1, 1, 1}),
+      truth(27, "ball through a pane: pieces", normalized, same, 1,
+            deviation_from_mean(kPane, kPieces), {1, 1.8, 1, 2.4}),
       truth(27, "ball through a pane: deepest overlap", "mm", "rigid", 10, deepest_mm(kPane),
             {61, 51, 24, 4.5}),
   };

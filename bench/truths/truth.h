@@ -1,7 +1,7 @@
-// Reference behaviour that nobody in this project invented, measured at every preset: asserted by
-// tests/truths, printed by truths_bench, and tabled in docs/truths.md.
+// Validation cases: quantities with a published or closed-form reference, measured at every preset.
+// Asserted by tests/truths, printed by truths_bench, listed in docs/truths.md.
 //
-// Read first: Truth. The lists are by theme, one a file.
+// Begin at Truth. Each file of the folder has the cases of one theme.
 #pragma once
 
 #include <array>
@@ -24,26 +24,28 @@ using W = RigidWorld;
 using Measure = std::function<double(const Preset&)>;
 using Bounds = std::array<double, kPresets.size()>;
 
-/// A truth holds as far as |measure(preset)| is small.
+/// A validation case. measure() returns the deviation from the reference.
 struct Truth {
-  int row;             ///< Of the table; truths of one row belong together.
-  const char* what;    ///< What is measured. Unique.
-  const char* unit;    ///< "": a share of what it is compared with.
-  const char* source;  ///< Of the closed form, or whose figure it is.
-  double mark;         ///< What |measure| should not exceed.
+  int row;             ///< Row of the table; related cases share a row.
+  const char* what;    ///< Name of the measured quantity; unique.
+  const char* unit;    ///< Unit of measure(); "" for a relative deviation.
+  const char* source;  ///< Publication or formula of the reference.
+  double mark;         ///< Target: |measure| should not exceed it.
   Measure measure;
-  Bounds bounds;  ///< What it does not exceed, by preset: what is reached and half as much.
-  /// What a user is told who asks for this; none: no user can.
+  Bounds bounds;  ///< Accepted |measure| by preset: the value reached, plus half of it.
+  /// Returns the warnings that a user gets for the scene; empty if the case has no scene file.
   std::function<std::string(const Preset&)> told = {};
-  bool is_timing = false;  ///< Of the machine, too: reported by the bench, asserted by no test.
+  bool is_timing = false;  ///< True if machine-dependent: printed, not tested.
 };
 using Truths = std::vector<Truth>;
 
+/// Returns a case without warnings.
 inline Truth truth(int row, const char* what, const char* unit, const char* source, double mark,
                    Measure measure, const Bounds& bounds) {
   return {row, what, unit, source, mark, std::move(measure), bounds};
 }
 
+/// Returns the case, marked as dependent on the machine.
 inline Truth timing(Truth truth) {
   truth.is_timing = true;
   return truth;
@@ -70,10 +72,10 @@ Truths through_truths();
 Truths perforation_truths();
 Truths blast_truths();
 
-/// All of these, in the order of their rows.
+/// Returns all cases of these lists, sorted by row.
 Truths all_truths();
 
-/// The x in [low, high] where yes(x) turns from false to true.
+/// Returns the x in [low, high] where yes(x) turns from false to true, after `rounds` bisections.
 double threshold(double low, double high, int rounds, const std::function<bool(double)>& yes);
 
 }  // namespace sunder::truths

@@ -26,8 +26,8 @@
 // of its pieces, and may be dropped at any time: the next answer then costs more, and agrees with
 // the former within the solver's tolerance.
 //
-// An impact load is evaluated in both ways: as a command, and as `LoadCase::blow`, which cuts the
-// bonds that it overloads (engine/world/break/planned_break.cpp).
+// An impact load is evaluated in both ways: as a command, and as `LoadCase::impulsive_load`, which
+// cuts the bonds that it overloads (engine/world/break/planned_break.cpp).
 //
 // An edit applies once, to the structure that it was computed for, in the state that this had.
 #pragma once
@@ -213,7 +213,7 @@ struct LoadCase {
   std::uint64_t most_work = 0;
   /// Memory of this structure, or of the structure that it was a piece of; null at first.
   StressCachePtr memory;
-  ImpulsiveLoad blow = {};  ///< Usually empty.
+  ImpulsiveLoad impulsive_load = {};  ///< Usually empty.
   /// Slots whose convexes are next to a plastic hinge, ascending: bonds between them and their
   /// neighbours do not yield again.
   std::vector<ConvexSlot> hinged = {};
@@ -235,7 +235,7 @@ struct StressResult {
   bool settled = false;
   std::uint64_t work = 0;  ///< Work units spent.
   StressCachePtr memory;   ///< Memory for the next call, about the structure or any of its pieces.
-  ImpulsiveStress blow;    ///< Set if there was an impact load.
+  ImpulsiveStress impulsive_stress;  ///< Set if there was an impact load.
   /// True if the work ran out before the stress of the impact load was known. A call with `memory`
   /// continues the solve.
   bool undecided = false;

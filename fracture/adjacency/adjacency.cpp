@@ -98,9 +98,9 @@ void add_to_bins(const Convex& convex, const FaceEntry& entry, std::vector<Bin>&
 
 }  // namespace
 
-double least_overlap(const Convex& a, const Convex& b) {
+double min_contact_area_m2(const Convex& a, const Convex& b) {
   const double size = std::min(size_of(a), size_of(b));
-  return kLeastOverlap * size * size;
+  return kMinContactArea * size * size;
 }
 
 void sort_bonds(std::vector<Bond>& bonds) {
@@ -136,7 +136,7 @@ void add_faces(const Convex& convex, std::uint32_t index, std::vector<FaceEntry>
   }
 }
 
-FaceEntry known_face(const Convex& convex, std::uint32_t index, std::uint32_t face) {
+FaceEntry face_in_contact(const Convex& convex, std::uint32_t index, std::uint32_t face) {
   FaceEntry entry{convex.polyhedron.faces[face].id, index, face, true};
   if (convex.is_internal()) return entry;
   std::size_t cap = convex.visual->faces.size();

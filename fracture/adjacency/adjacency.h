@@ -30,14 +30,14 @@ struct FaceEntry {
 };
 
 /// Returns the least area in m² of a contact; smaller overlaps are rounding errors.
-double least_overlap(const Convex& a, const Convex& b);
+double min_contact_area_m2(const Convex& a, const Convex& b);
 
 /// Sorts bonds in the order of Compound::bonds.
 void sort_bonds(std::vector<Bond>& bonds);
 /// Appends all faces with which the convex at `index` may touch others.
 void add_faces(const Convex& convex, std::uint32_t index, std::vector<FaceEntry>& entries);
 /// Returns the entry of a face that is in contact already.
-FaceEntry known_face(const Convex& convex, std::uint32_t index, std::uint32_t face);
+FaceEntry face_in_contact(const Convex& convex, std::uint32_t index, std::uint32_t face);
 /// Returns all contacts among `faces` of `convexes`, sorted as Compound::bonds.
 std::vector<Bond> find_contacts(std::span<const ConvexPtr> convexes,
                                 std::span<const FaceEntry> faces);

@@ -12,8 +12,8 @@ using sunder::Part;
 
 /// Returns a compound of `parts`. Faces within `tolerance_m` of one plane share a plane id;
 /// touching pairs get bonds, and parts that overlap by more than the tolerance get ghosts. Up to
-/// kDeepestGhost (overlap.h) parts may overlap in one place; of a further part only what the parts
-/// before it do not fill is kept. Throws InputError if there are too many overlaps.
+/// kMaxConvexesPerGhost (overlap.h) parts may overlap in one place; of a further part only what the
+/// parts before it do not fill is kept. Throws InputError if there are too many overlaps.
 Compound make_compound(std::vector<Part> parts, double tolerance_m = 1e-6);
 
 /// Returns the islands of a compound, in the order of their first convexes.

@@ -65,12 +65,12 @@ void subtract_convex(ConvexPolyhedron solid, const ConvexPolyhedron& other, doub
   }
 }
 
-/// Returns true if more than kDeepestGhost polyhedra intersect: `common` is the intersection of
-/// `count`; `others` from `first` on are added to it.
+/// Returns true if more than kMaxConvexesPerGhost polyhedra intersect: `common` is the intersection
+/// of `count`; `others` from `first` on are added to it.
 bool is_too_deep(const ConvexPolyhedron& common, std::size_t count,
                  const std::vector<const ConvexPolyhedron*>& others, std::size_t first,
                  double tolerance_m) {
-  if (count > kDeepestGhost) return true;
+  if (count > kMaxConvexesPerGhost) return true;
   for (std::size_t i = first; i < others.size(); ++i) {
     const ConvexPolyhedron deeper = overlap(common, *others[i], tolerance_m);
     if (!deeper.empty() && is_too_deep(deeper, count + 1, others, i + 1, tolerance_m)) return true;
@@ -165,7 +165,7 @@ bool cut_deep_overlaps(std::vector<Part>& parts, const PartPairs& overlaps, doub
     before[b].push_back(a);
     most = std::max(most, before[b].size());
   }
-  if (most < kDeepestGhost) return false;
+  if (most < kMaxConvexesPerGhost) return false;
   std::vector<std::vector<Part>> result(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     std::vector<const ConvexPolyhedron*> others;
@@ -203,7 +203,7 @@ std::vector<Ghost> find_ghosts(std::span<const ConvexPtr> convexes, const PartPa
     if (ghost.sign != 0) after[ghost.of[0]].push_back(ghost.of[1]);
   }
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    if (ghosts[g].sign == 0 || ghosts[g].of.size() == kDeepestGhost) continue;
+    if (ghosts[g].sign == 0 || ghosts[g].of.size() == kMaxConvexesPerGhost) continue;
     for (const std::uint32_t next : after[ghosts[g].of.back()]) {
       ConvexPolyhedron common =
           overlap(ghosts[g].convex->polyhedron, convexes[next]->polyhedron, tolerance_m);

@@ -1,5 +1,5 @@
-// Ghosts for convexes that overlap (paper 4.3, figure 12), up to kDeepestGhost convexes in one
-// place; deeper overlaps are cut away.
+// Ghosts for convexes that overlap (paper 4.3, figure 12), up to kMaxConvexesPerGhost convexes in
+// one place; deeper overlaps are cut away.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 namespace sunder::fracture {
 
 /// Limit of convexes per ghost, as n parts in one place would have 2^n ghosts.
-inline constexpr std::size_t kDeepestGhost = 4;
+inline constexpr std::size_t kMaxConvexesPerGhost = 4;
 
 /// Returns the intersection of two polyhedra, with the plane ids of their faces; empty unless it is
 /// thicker than `tolerance_m`.
@@ -31,9 +31,9 @@ PartPairs find_pairs(std::span<const Part> parts, double tolerance_m);
 /// Returns those of `pairs` that overlap by more than the tolerance.
 PartPairs find_overlaps(std::span<const Part> parts, const PartPairs& pairs, double tolerance_m);
 
-/// Replaces each part that overlaps kDeepestGhost parts before it in one place by convex parts,
-/// which fill what no part before it fills; returns false if there is no such part. Remains thinner
-/// than the tolerance are dropped. Throws InputError if too many parts result.
+/// Replaces each part that overlaps kMaxConvexesPerGhost parts before it in one place by convex
+/// parts, which fill what no part before it fills; returns false if there is no such part. Remains
+/// thinner than the tolerance are dropped. Throws InputError if too many parts result.
 bool cut_deep_overlaps(std::vector<Part>& parts, const PartPairs& overlaps, double tolerance_m);
 
 /// Returns the ghosts of two and more overlapping convexes, sorted. A ghost has the material of the

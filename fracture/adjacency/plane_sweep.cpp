@@ -79,7 +79,7 @@ class PlaneSweep {
     const ProjectedFace& odd = a.id < b.id ? b : a;
     const double size = std::min(a.size, b.size);
     const double area = even.scale * flat_overlap(even, odd, size);
-    if (area <= kLeastOverlap * size * size) return;
+    if (area <= kMinContactArea * size * size) return;
     const ProjectedFace& low = a.convex < b.convex ? a : b;
     const ProjectedFace& high = a.convex < b.convex ? b : a;
     bonds.push_back({low.convex, high.convex, low.face, high.face, area});

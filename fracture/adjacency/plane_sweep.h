@@ -12,7 +12,7 @@
 namespace sunder::fracture {
 
 /// Least area of a contact over the squared size of the smaller convex.
-inline constexpr double kLeastOverlap = 1e-10;
+inline constexpr double kMinContactArea = 1e-10;
 
 /// A face projected along the axis nearest to its normal.
 struct ProjectedFace {

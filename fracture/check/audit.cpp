@@ -165,7 +165,7 @@ double common_volume(const Convex& a, const Convex& b, bool& exact) {
   return common_solid(part_a, part_b, clipper);
 }
 
-std::optional<DoubledVolume> doubled_volume(const Compound& compound) {
+std::optional<DoubleCountedVolume> double_counted_volume(const Compound& compound) {
   constexpr std::size_t kMostPairs = 2000;
   std::vector<const Ghost*> ghosts;
   for (const Ghost& ghost : compound.ghosts) {
@@ -182,8 +182,8 @@ std::optional<DoubledVolume> doubled_volume(const Compound& compound) {
         std::max(0.0, common_volume(*compound.convexes[of[0]], *compound.convexes[of[1]], exact));
     exact_of[g] = exact ? 1 : 0;
   });
-  return DoubledVolume{std::accumulate(volume.begin(), volume.end(), 0.0),
-                       std::find(exact_of.begin(), exact_of.end(), 0) == exact_of.end()};
+  return DoubleCountedVolume{std::accumulate(volume.begin(), volume.end(), 0.0),
+                             std::find(exact_of.begin(), exact_of.end(), 0) == exact_of.end()};
 }
 
 Audit audit(std::span<const Compound> pieces) {

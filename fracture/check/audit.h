@@ -33,13 +33,13 @@ struct Audit {
 Audit audit(std::span<const Compound> pieces);
 
 /// Volume that is counted more than once.
-struct DoubledVolume {
+struct DoubleCountedVolume {
   double volume_m3 = 0;
   bool is_exact = true;  ///< False if the volume is only an upper bound.
 };
 /// Returns the volume that convexes with visual meshes share with others of their compound, summed
 /// over pairs; nullopt if there are too many pairs to measure.
-std::optional<DoubledVolume> doubled_volume(const Compound& compound);
+std::optional<DoubleCountedVolume> double_counted_volume(const Compound& compound);
 
 /// Returns the volume of the intersection of two convexes, or of their visual meshes if they have
 /// any. Sets `exact` to false if the result is only an upper bound.

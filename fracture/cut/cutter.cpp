@@ -152,7 +152,7 @@ std::vector<NamedPlane> Cutter::cutting_planes(const std::vector<PlaneId>& regio
 
 double Cutter::min_part_m3(double whole_m3) const {
   const double unit = pattern_.placement.linear.determinant();
-  return kVolumeFloor * std::min(whole_m3, unit);
+  return kMinPartVolume * std::min(whole_m3, unit);
 }
 
 double Cutter::allowed_error_m3(double whole_m3) const { return kVolumeError * whole_m3 + noise_; }

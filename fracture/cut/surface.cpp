@@ -139,7 +139,7 @@ class SurfaceCutter {
   ConvexPtr surface_convex(const Draft& draft, PolygonMesh mesh,
                            const MassProperties& solid) const {
     auto convex = std::make_shared<Convex>();
-    convex->polyhedron = refitted(draft.convex->polyhedron, mesh.vertices, fit_);
+    convex->polyhedron = fit_to_points(draft.convex->polyhedron, mesh.vertices, fit_);
     convex->visual = std::make_shared<PolygonMesh>(std::move(mesh));
     convex->material = parent_->material;
     convex->solid = solid;
@@ -172,8 +172,8 @@ Intersection intersect_surface(const AlignedPattern& pattern, const ConvexPtr& c
   return SurfaceCutter(pattern, convex, fit).run();
 }
 
-ConvexPolyhedron refitted(const ConvexPolyhedron& region, std::span<const Vec3> points,
-                          const Fit& fit) {
+ConvexPolyhedron fit_to_points(const ConvexPolyhedron& region, std::span<const Vec3> points,
+                               const Fit& fit) {
   Box box;
   for (const Vec3& p : points) box.extend(p);
   const double size = box.extent().maxCoeff();

@@ -13,7 +13,7 @@ Intersection intersect_surface(const AlignedPattern& pattern, const ConvexPtr& c
 
 /// Returns `region` clipped to fit the points in it (paper 3.3 c); new faces have no id. Faces that
 /// the points touch are kept, and so are contacts in them.
-ConvexPolyhedron refitted(const ConvexPolyhedron& region, std::span<const Vec3> points,
-                          const Fit& fit);
+ConvexPolyhedron fit_to_points(const ConvexPolyhedron& region, std::span<const Vec3> points,
+                               const Fit& fit);
 
 }  // namespace sunder::fracture

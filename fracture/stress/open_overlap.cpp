@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/check.h"
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/adjacency/overlap.h"
 #include "fracture/stress/strength.h"
@@ -122,8 +123,12 @@ BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   if (others.empty()) {
     edit.added = {structure.convex(cut)};
   } else {
-    for (ConvexPolyhedron& part : subtract(old.polyhedron, others, thinnest_m))
-      edit.added.push_back(make_convex(std::move(part), old.material, nullptr, old.X_RT));
+    try {
+      for (ConvexPolyhedron& part : subtract(old.polyhedron, others, thinnest_m))
+        edit.added.push_back(make_convex(std::move(part), old.material, nullptr, old.X_RT));
+    } catch (const InputError&) {  // too many parts
+      return {};
+    }
   }
   std::vector<ConvexPtr> convexes;
   for (const ConvexSlot slot : around) convexes.push_back(structure.convex(slot));

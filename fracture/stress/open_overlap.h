@@ -22,7 +22,9 @@ double overlap_utilisation(const Compound& compound, const Ghost& ghost, const W
 /// Returns the edit that removes an overlap of two convexes (slots `a` < `b`) from a structure. One
 /// of them, the smaller where possible, is replaced by convex parts that fill what no other convex
 /// fills, with bonds to their neighbours. Mass is conserved. An overlap with a surface convex has
-/// no common volume to cut off: it only ceases to hold the two together. Nothing comes off.
+/// no common volume to cut off: it only ceases to hold the two together. Nothing comes off. The
+/// edit is empty if a convex would be cut into too many parts (see subtract()); the overlap then
+/// holds under any load.
 BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b);
 
 }  // namespace sunder::fracture

@@ -129,7 +129,7 @@ std::uint32_t Sections::other_convex(std::uint32_t bond, std::uint32_t convex) c
 }
 
 /// Returns true if a bond is under compression: it transmits force even without strength.
-bool Sections::is_pressed(std::uint32_t bond) const {
+bool Sections::is_compressed(std::uint32_t bond) const {
   return system_.geometry()[bond].normal_R.dot(system_.wrench(bond, displacements_).force_N) < 0;
 }
 
@@ -145,7 +145,7 @@ std::vector<Crossing> Sections::find_crossings(std::uint32_t bond, const Vec3& n
   const auto add = [&](std::uint32_t i) {
     if (seen_bond_[i] == search_) return;
     seen_bond_[i] = search_;
-    all_give_way &= yield_Pa(i) > 0 || is_pressed(i);
+    all_give_way &= yield_Pa(i) > 0 || is_compressed(i);
     crossings.push_back({i, ahead(compound_.bonds[i].b)});
   };
   const auto add_those_of = [&](std::uint32_t convex) {
@@ -258,7 +258,7 @@ Section Sections::make_section(std::vector<Crossing> crossings, const Vec3& norm
   Section section;
   std::erase_if(crossings, [&](const Crossing& crossing) {
     const bool yields = yield_Pa(crossing.bond) > 0;
-    if (!yields) section.pressed.push_back(crossing.bond);
+    if (!yields) section.compressed.push_back(crossing.bond);
     return !yields;
   });
   double all_m2 = 0;

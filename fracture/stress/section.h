@@ -30,7 +30,7 @@ struct Section {
   std::vector<Crossing> crossings;  ///< In the order of bonds; empty: there is no such section.
   /// Further bonds of the section that do not yield and are under compression, ascending: when the
   /// section flows, only the contact of their convexes remains.
-  std::vector<std::uint32_t> pressed;
+  std::vector<std::uint32_t> compressed;
   Vec3 centroid_R = Vec3::Zero();
   double area_m2 = 0;  ///< Area of the bonds, projected along the normal.
   /// The second axis is the axis of bending under the load.
@@ -72,7 +72,7 @@ class Sections {
   std::span<const std::uint32_t> bonds_of(std::uint32_t convex) const;
   const Vec3& centroid(std::uint32_t convex) const;
   std::uint32_t other_convex(std::uint32_t bond, std::uint32_t convex) const;
-  bool is_pressed(std::uint32_t bond) const;
+  bool is_compressed(std::uint32_t bond) const;
   std::vector<Crossing> find_crossings(std::uint32_t bond, const Vec3& normal_R);
   Vec3 vector_area(std::span<const Crossing> crossings, double& area_m2) const;
   std::vector<Vec3> axes_around(std::uint32_t bond);

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -13,7 +12,7 @@
 #include "engine/base/parallel.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/stress/open_overlap.h"
-#include "fracture/stress/parting.h"
+#include "fracture/stress/separate_islands.h"
 #include "fracture/stress/strength.h"
 #include "fracture/stress/stress_memory.h"
 #include "fracture/stress/yielding.h"
@@ -65,8 +64,8 @@ class StressBreaks {
         slots_(structure.slots()),
         load_(load),
         loads_(by_convex(load.loads)),
-        impulses_(by_convex(load.blow.impulses)),
-        impact_J_(load.blow.energy_J),
+        impulses_(by_convex(load.impulsive_load.impulses)),
+        impact_J_(load.impulsive_load.energy_J),
         hinged_(slots_.size(), 0) {
     const auto is_negligible = [this](const Bond& bond) { return this->is_negligible(bond); };
     std::ranges::copy_if(compound_.bonds, std::back_inserter(negligible_), is_negligible);
@@ -87,8 +86,9 @@ class StressBreaks {
       is_known = solve(answer) && add_impact(answer);
       if (!is_known) break;
       if (const Ghost* overlap = overloaded_overlap()) {
-        if (round == 0) opened_ = *overlap;
-        break;  // Bonds that were cut are applied first.
+        if (round > 0) break;  // Bonds that were cut are applied first.
+        opening_ = open_overlap(structure_, slots_[overlap->of[0]], slots_[overlap->of[1]]);
+        if (opening_.changed) break;
       }
       Yielding yielding = analyse(answer);
       if (round == 0) record_impact_stress(answer);
@@ -114,10 +114,11 @@ class StressBreaks {
     if (!impulses_.empty()) record_impact_work(is_known, answer);
     if (!negligible_.empty() && (!cut_.empty() || is_disconnected()))
       cut_.insert(cut_.end(), negligible_.begin(), negligible_.end());
-    answer.edit = opened_ ? open_overlap(structure_, slots_[opened_->of[0]], slots_[opened_->of[1]])
-                          : separate_islands(compound_, slots_, cut_, std::move(hinges_));
+    answer.edit = opening_.changed ? std::move(opening_)
+                                   : separate_islands(compound_, slots_, cut_, std::move(hinges_));
     memory_->slots = slots_;
     memory_->bonds = compound_.bonds;
+    memory_->ghosts = compound_.ghosts.size();
     memory_->convexes = compound_.convexes;
     memory_->anchored = compound_.anchored;
     answer.memory = memory_;
@@ -204,8 +205,8 @@ class StressBreaks {
     const double striker = work * work / (2 * impact_J_);
     if (!(work > 0) || !(impact_J_ > 0)) return false;
     const double most = std::sqrt(work / (striker + mass));
-    const double bent_near =
-        memory_->system->energy_J(deflection, load_.blow.center_R, load_.blow.reach_m);
+    const double bent_near = memory_->system->energy_J(deflection, load_.impulsive_load.center_R,
+                                                       load_.impulsive_load.reach_m);
     local_share_ = (mass + striker * std::min(1.0, 2 * bent_near / work)) / (striker + mass);
     combined_ = memory_->displacements;
     for (std::size_t c = 0; c < combined_.size(); ++c) {
@@ -220,7 +221,7 @@ class StressBreaks {
     KnownDeflection& deflection = memory_->deflection;
     std::vector<ConvexSlot> struck;
     double impulse_Ns = 0;
-    for (const AppliedForce& impulse : load_.blow.impulses) {
+    for (const AppliedForce& impulse : load_.impulsive_load.impulses) {
       struck.push_back(impulse.convex);
       impulse_Ns += impulse.force_N.norm();
     }
@@ -241,7 +242,7 @@ class StressBreaks {
     std::uint64_t& work = memory_->deflection.work;
     const bool ran_out = !is_known && cut_.empty() && answer.work >= most_work_;
     work = ran_out ? work + answer.work : 0;
-    answer.undecided = ran_out && work < load_.blow.most_work;
+    answer.undecided = ran_out && work < load_.impulsive_load.most_work;
     if (!answer.undecided) work = 0;
   }
 
@@ -251,9 +252,10 @@ class StressBreaks {
 
   void record_impact_stress(StressResult& answer) const {
     if (impulses_.empty()) return;
-    answer.blow.local = local_share_;
-    answer.blow.worst = answer.worst;
-    if (worst_ != kNoBond) answer.blow.worst_R = memory_->system->geometry()[worst_].centroid_R;
+    answer.impulsive_stress.local = local_share_;
+    answer.impulsive_stress.worst = answer.worst;
+    if (worst_ != kNoBond)
+      answer.impulsive_stress.worst_R = memory_->system->geometry()[worst_].centroid_R;
   }
 
   Yielding analyse(StressResult& answer) {
@@ -402,7 +404,7 @@ class StressBreaks {
   std::uint64_t most_work_ = 0;
   std::vector<std::uint8_t> hinged_;  ///< Per convex: nonzero beside a hinge.
   std::vector<Bond> cut_, negligible_;
-  std::optional<Ghost> opened_;
+  BreakEdit opening_;  ///< Of an overlap.
   std::vector<PlasticHinge> hinges_;
 };
 

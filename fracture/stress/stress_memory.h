@@ -1,6 +1,7 @@
 // State kept between stress solves of a structure: its spring system and the last displacements.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -26,6 +27,7 @@ struct KnownStress final : StressCache {
   std::vector<ConvexPtr> convexes;
   std::vector<std::uint8_t> anchored;
   std::vector<Bond> bonds;
+  std::size_t ghosts = 0;
   std::shared_ptr<const StressSystem> system;
   std::vector<Displacement> displacements;  ///< Under the steady load.
   int iterations = 0;                       ///< Iterations of a solve that has not converged.
@@ -33,9 +35,9 @@ struct KnownStress final : StressCache {
   KnownDeflection deflection;               ///< Under the last impact.
 
   bool is_of(const Compound& compound) const {
-    // Bonds are never added, so equal numbers imply equal bonds.
-    return bonds.size() == compound.bonds.size() && convexes == compound.convexes &&
-           anchored == compound.anchored;
+    // For equal convexes bonds and ghosts are never added, so equal numbers imply equal ones.
+    return bonds.size() == compound.bonds.size() && ghosts == compound.ghosts.size() &&
+           convexes == compound.convexes && anchored == compound.anchored;
   }
 };
 

@@ -146,7 +146,7 @@ void Yielding::choose(std::uint32_t section) {
     is_taken_[behind(crossing)] = is_taken_[ahead(crossing)] = 1;
     place_[crossing.bond] = static_cast<std::uint32_t>(chosen_.size());
   }
-  for (const std::uint32_t bond : found_[section].pressed)
+  for (const std::uint32_t bond : found_[section].compressed)
     place_[bond] = std::min(place_[bond], static_cast<std::uint32_t>(chosen_.size()));
   chosen_.push_back(section);
 }
@@ -217,7 +217,7 @@ Flow Yielding::make_flow(std::size_t chosen) {
     const std::vector<std::uint32_t> island = islands(chosen, false);
     for (std::size_t k = 0; k < chosen; ++k) {
       const Section& section = found_[chosen_[k]];
-      for (const std::uint32_t bond : section.pressed)
+      for (const std::uint32_t bond : section.compressed)
         if (place_[bond] == k) flow.cracks.push_back(bond);
       std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Crossing>> between;
       for (const Crossing& crossing : section.crossings) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fracture/vacd/cut.h"
+#include "fracture/vacd/best_cut.h"
 #include "fracture/vacd/regions.h"
 
 namespace sunder::fracture {

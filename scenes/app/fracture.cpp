@@ -42,7 +42,8 @@ constexpr double kEnoughTime_ms = 200;
 struct Broken {
   fracture::Audit before, after;
   BreakPlan plan;
-  std::optional<fracture::DoubledVolume> doubled;  ///< Volume that overlaps count twice.
+  std::optional<fracture::DoubleCountedVolume>
+      double_counted;  ///< Volume that overlaps count twice.
   double prepare_ms = 0;
   double total_ms = 0;
 };
@@ -105,7 +106,8 @@ BreakCommand command_of(const FractureOptions& options, const Compound& compound
 
 /// Computes the break of all islands of a solid by one event. Does not change the structures.
 std::vector<BreakEdit> break_once(const std::vector<Structure>& structures,
-                                  const fracture::ReadyBreak& ready, const BreakCommand& command) {
+                                  const fracture::PreparedBreak& ready,
+                                  const BreakCommand& command) {
   constexpr std::size_t kManyParts = 16;
   std::vector<BreakEdit> edits(structures.size());
   const auto break_part = [&](std::size_t i) {
@@ -147,7 +149,7 @@ Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProg
   std::vector<Structure> structures;
   for (const Compound& part : fracture::split_islands(compound)) structures.emplace_back(part);
   fracture::PatternLibrary library;
-  const fracture::ReadyBreak ready = fracture::make_ready(command, bounds(compound), library);
+  const fracture::PreparedBreak ready = fracture::prepare_break(command, bounds(compound), library);
   broken.prepare_ms = watch.ms();
 
   std::vector<BreakEdit> edits;
@@ -164,7 +166,7 @@ Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProg
     collect(structures[i], std::move(edits[i]), broken.plan);
   }
   progress("measuring", kBrokenShare);
-  broken.doubled = fracture::doubled_volume(compound);
+  broken.double_counted = fracture::double_counted_volume(compound);
   broken.before = fracture::audit(std::span(&compound, 1));
   broken.after = fracture::audit(broken.plan.pieces);
   return broken;
@@ -187,7 +189,7 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   figures["/failed"] = whole(broken.plan.failed);
   figures["/failed_volume_m3"] = broken.plan.failed_m3;
   figures["/volume_in_m3"] = broken.before.volume_m3;
-  add_doubled(broken.doubled, figures);
+  add_doubled(broken.double_counted, figures);
   figures["/volume_out_m3"] = after.volume_m3;
   figures["/surface_volume_m3"] = after.surface_m3;
   figures["/debris_volume_m3"] = broken.plan.debris_volume_m3;
@@ -218,7 +220,7 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
       broken.plan.welded, broken.before.volume_m3, after.volume_m3 + broken.plan.debris_volume_m3,
       volume_error(broken), after.overlap_m3, solid.prepare_ms + broken.prepare_ms, broken.total_ms,
       broken.plan.clip_ms, broken.plan.islands_ms);
-  return input_summary(solid) + text + doubled_summary(broken.doubled);
+  return input_summary(solid) + text + doubled_summary(broken.double_counted);
 }
 
 /// A solid, its break, and the result.

@@ -55,18 +55,20 @@ std::string input_summary(const scenes::MeshSolid& solid) {
   return line + "repairs  " + (repairs.empty() ? "none" : repairs) + "\n";
 }
 
-void add_doubled(const std::optional<fracture::DoubledVolume>& doubled, Figures& figures) {
-  if (!doubled) return;
-  figures["/volume_doubled_m3"] = doubled->volume_m3;
-  figures["/volume_doubled_method"] = std::string(doubled->is_exact ? "exact" : "upper bound");
+void add_doubled(const std::optional<fracture::DoubleCountedVolume>& double_counted,
+                 Figures& figures) {
+  if (!double_counted) return;
+  figures["/volume_doubled_m3"] = double_counted->volume_m3;
+  figures["/volume_doubled_method"] =
+      std::string(double_counted->is_exact ? "exact" : "upper bound");
 }
 
-std::string doubled_summary(const std::optional<fracture::DoubledVolume>& doubled) {
-  if (!doubled || !(doubled->volume_m3 > 0)) return "";
+std::string doubled_summary(const std::optional<fracture::DoubleCountedVolume>& double_counted) {
+  if (!double_counted || !(double_counted->volume_m3 > 0)) return "";
   char text[160];
   std::snprintf(text, sizeof text,
                 "overlaps %s%.3g m³ of the volume, counted with each of the parts that overlap\n",
-                doubled->is_exact ? "" : "up to ", doubled->volume_m3);
+                double_counted->is_exact ? "" : "up to ", double_counted->volume_m3);
   return text;
 }
 

@@ -21,9 +21,10 @@ void print_warnings(const scenes::MeshSolid& solid);
 std::string input_summary(const scenes::MeshSolid& solid);
 
 /// Returns a line on the volume that overlaps count twice; empty if there is none.
-std::string doubled_summary(const std::optional<fracture::DoubledVolume>& doubled);
+std::string doubled_summary(const std::optional<fracture::DoubleCountedVolume>& double_counted);
 /// Adds the volume that overlaps count twice to the figures; nothing if it was not measured.
-void add_doubled(const std::optional<fracture::DoubledVolume>& doubled, Figures& figures);
+void add_doubled(const std::optional<fracture::DoubleCountedVolume>& double_counted,
+                 Figures& figures);
 
 /// Throws InputError unless `output` is empty or the name of a format that write_solids() writes.
 void check_output(const std::string& output);

@@ -14,23 +14,23 @@ namespace sunder::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Doubled = std::optional<fracture::DoubledVolume>;
+using Doubled = std::optional<fracture::DoubleCountedVolume>;
 
-Figures figures_of(const scenes::MeshSolid& solid, const Doubled& doubled) {
+Figures figures_of(const scenes::MeshSolid& solid, const Doubled& double_counted) {
   Figures figures = input_figures(solid);
   figures["/convexes"] = static_cast<std::int64_t>(solid.compound.convexes.size());
   figures["/ghosts"] = static_cast<std::int64_t>(solid.compound.ghosts.size());
   figures["/hull_volume_ratio"] = solid.vacd->hull_volume_ratio();
   figures["/max_faces_per_convex"] = static_cast<std::int64_t>(solid.vacd->max_faces_per_convex);
   figures["/volume_m3"] = solid.vacd->mesh_volume_m3;
-  add_doubled(doubled, figures);
+  add_doubled(double_counted, figures);
   figures["/prepare_ms"] = solid.prepare_ms - solid.vacd->total_ms;
   figures["/split_ms"] = solid.vacd->split_ms;
   figures["/total_ms"] = solid.vacd->total_ms;
   return figures;
 }
 
-std::string summary(const scenes::MeshSolid& solid, const Doubled& doubled) {
+std::string summary(const scenes::MeshSolid& solid, const Doubled& double_counted) {
   const fracture::VacdFigures& vacd = *solid.vacd;
   char text[400];
   std::snprintf(text, sizeof text,
@@ -41,7 +41,7 @@ std::string summary(const scenes::MeshSolid& solid, const Doubled& doubled) {
                 solid.compound.ghosts.size(), vacd.hull_volume_ratio(), vacd.hull_volume_m3,
                 vacd.mesh_volume_m3, solid.prepare_ms - vacd.total_ms, vacd.total_ms,
                 vacd.split_ms);
-  return input_summary(solid) + text + doubled_summary(doubled);
+  return input_summary(solid) + text + doubled_summary(double_counted);
 }
 
 /// Returns each convex as a compound of its own; colours repeat after `colors` convexes.
@@ -62,15 +62,15 @@ void decompose_once(const VacdOptions& options) {
   const scenes::MeshSolid solid = scenes::make_mesh_solid(options.mesh, mesh);
   progress.reset();
   print_warnings(solid);
-  const Doubled doubled = fracture::doubled_volume(solid.compound);
-  options.print(summary(solid, doubled));
+  const Doubled double_counted = fracture::double_counted_volume(solid.compound);
+  options.print(summary(solid, double_counted));
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
                  options.explode, Walls::kKeep);
     options.print("wrote " + options.output + "\n");
   }
-  options.write_json(format_figures(figures_of(solid, doubled)));
+  options.write_json(format_figures(figures_of(solid, double_counted)));
 }
 
 /// Decomposes the mesh again whenever the file of nodes changes, until the program is stopped.

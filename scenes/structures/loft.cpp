@@ -176,7 +176,7 @@ ConvexPolyhedron block(std::span<const Vec2> plan_xz, double bottom, double top)
 
 Part lofted(std::span<const Ring> rings, const ConvexPolyhedron& region, MaterialIndex material) {
   auto mesh = std::make_shared<PolygonMesh>(loft(rings));
-  Part part{fracture::refitted(region, mesh->vertices, Fit()), material};
+  Part part{fracture::fit_to_points(region, mesh->vertices, Fit()), material};
   part.visual = std::move(mesh);
   return part;
 }

@@ -1,4 +1,4 @@
-// ExposedPolygon of debris and dust, uniformly on each face that a break has exposed.
+// Emission of debris and dust, uniformly on each face that a break has exposed.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Which convexes touch, and what holds together.
+// Tests of contacts between convexes, islands, and overlaps of polygons.
 #include "fracture/adjacency/adjacency.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(Adjacency, counts_only_the_part_that_overlaps) {
       make_compound({{make_box(Vec3(0, 0, 0), Vec3(1, 1, 1)), MaterialIndex(0u), 0},
                      {make_box(Vec3(0.75, 1, 0.5), Vec3(2, 2, 2)), MaterialIndex(0u), 0},
                      {make_box(Vec3(1, 0, 1), Vec3(2, 1, 2)), MaterialIndex(0u), 0}});
-  ASSERT_EQ(pair.bonds.size(), 2u);  // boxes 0 and 2 share an edge only
+  ASSERT_EQ(pair.bonds.size(), 2u);  // Boxes 0 and 2 share an edge only.
   EXPECT_NEAR(pair.bonds[0].area_m2, 0.125, 1e-15);
   EXPECT_NEAR(pair.bonds[1].area_m2, 1, 1e-15);
 }
@@ -110,7 +110,7 @@ TEST(Polygon, overlap_of_any_polygons_is_that_of_their_convex_parts) {
     const std::span<const Vec2> a[] = {star}, b[] = {outer, hole};
     ASSERT_NEAR(overlap_area(a, b, 0), expected, 1e-14);
     ASSERT_NEAR(overlap_area(b, a, 0), expected, 1e-14);
-    // The same but for rounding, whether that is looked for or not.
+    // The overlap of polygons that differ by rounding is the whole, with and without a tolerance.
     std::vector<Vec2> rounded = outer;
     for (Vec2& point : rounded) point += 1e-15 * Vec2(random.uniform(-1, 1), random.uniform(-1, 1));
     const std::span<const Vec2> c[] = {hole, rounded};
@@ -128,9 +128,10 @@ TEST(Polygon, overlap_of_a_triangle_and_a_dart_on_its_corners_is_the_dart) {
   EXPECT_NEAR(overlap_area(b, a, 1e-12), 6, 1e-12);
 }
 
-TEST(Polygon, overlap_of_what_is_the_same_but_for_rounding_is_all_of_it) {
+TEST(Polygon, overlap_of_equal_polygons_up_to_rounding_is_the_whole) {
   const std::vector<Vec2> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  std::vector<Vec2> moved{{1, 1}, {0, 1}, {0, 0}, {1, 0}};  // from another corner on
+  // The same square, from another corner on.
+  std::vector<Vec2> moved{{1, 1}, {0, 1}, {0, 0}, {1, 0}};
   for (Vec2& point : moved) point.x() += 1e-3;
   const std::span<const Vec2> a[] = {square}, b[] = {moved};
   EXPECT_EQ(overlap_area(a, b, 2e-3), 1);

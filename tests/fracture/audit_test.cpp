@@ -1,4 +1,4 @@
-// The audit finds what is wrong with pieces, and measures overlaps exactly.
+// Tests that the audit finds defects of pieces, and measures overlaps exactly.
 #include "fracture/check/audit.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 Compound box(const Vec3& min, const Vec3& max) { return box_compound(min, max); }
 
-/// A box whose visual mesh is what is left of it below x + y = `below`.
+/// Returns a box whose visual mesh is the part of the box with x + y < `below`.
 Compound wedge(const Vec3& min, const Vec3& max, double below) {
   const ConvexPolyhedron shape = make_box(min, max);
   auto visual = std::make_shared<PolygonMesh>();
@@ -37,14 +37,14 @@ TEST(Audit, AnOverlapIsMeasuredExactly) {
   EXPECT_NEAR(audit(pieces).overlap_m3, .5 * .75 * .5, 1e-15);
 }
 
-TEST(Audit, VisualMeshesOverlapWhereTheyAreAndNotWhereTheirHullsAre) {
-  // Hulls share the whole unit box; what is left of the meshes shares nothing, or a part.
+TEST(Audit, OverlapsAreThoseOfVisualMeshesAndNotOfTheirHulls) {
+  // The hulls share the whole unit box; the meshes share a part of it.
   const Compound low = wedge({0, 0, 0}, {1, 1, 1}, 0.5);
   const Compound whole = box({0, 0, 0}, {1, 1, 1});
   bool exact = true;
   EXPECT_NEAR(common_volume(*low.convexes[0], *whole.convexes[0], exact), 0.125, 1e-14);
   const Compound moved = wedge({.25, 0, 0}, {1.25, 1, 1}, 1);
-  // x + y < 0.5 and x > 0.25: a triangle of legs 0.25.
+  // x + y < 0.5 and x > 0.25 is a triangle of legs 0.25.
   EXPECT_NEAR(common_volume(*low.convexes[0], *moved.convexes[0], exact), 0.03125, 1e-14);
   EXPECT_TRUE(exact);
 }

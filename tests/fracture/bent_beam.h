@@ -1,4 +1,4 @@
-// A beam that parts at a section and bends there, for tests of what becomes of its halves.
+// Test fixture: a beam that is split at a section and bent there.
 #pragma once
 
 #include <algorithm>
@@ -23,18 +23,19 @@ struct Halves {
   BentSection section;
 };
 
-/// Whether a face lies in a plane, on either side.
-inline bool lies_in(const Convex& convex, std::uint32_t face, const Plane& plane) {
+/// Returns true if a face lies in a plane, on either side of it.
+inline bool lies_in_plane(const Convex& convex, std::uint32_t face, const Plane& plane) {
   const Plane& own = convex.polyhedron.faces[face].plane;
   const Plane other = own.normal.dot(plane.normal) < 0 ? own.flipped() : own;
   return (other.normal - plane.normal).norm() < 1e-6 && std::abs(other.d - plane.d) < 1e-6;
 }
 
-/// Parts what a plane's bonds hold together; a lies within it.
-inline Halves parted(const Compound& whole, const Plane& plane) {
+/// Splits a compound in two by removing the bonds that cross a plane; part a is below the plane.
+/// Returns empty halves if the parts are not two.
+inline Halves split_at_plane(const Compound& whole, const Plane& plane) {
   const auto crosses = [&](const Bond& bond) {
-    return lies_in(*whole.convexes[bond.a], bond.face_a, plane) &&
-           lies_in(*whole.convexes[bond.b], bond.face_b, plane);
+    return lies_in_plane(*whole.convexes[bond.a], bond.face_a, plane) &&
+           lies_in_plane(*whole.convexes[bond.b], bond.face_b, plane);
   };
   Compound apart = whole;
   std::erase_if(apart.bonds, crosses);
@@ -72,12 +73,13 @@ inline Halves parted(const Compound& whole, const Plane& plane) {
   return halves;
 }
 
-/// How a side lies that has turned about the section's centroid and moved off by `gap`.
-inline Pose turned(const BentSection& section, const Quat& turn, const Vec3& gap = Vec3::Zero()) {
+/// Returns the pose of side B after a rotation about the section's centroid and a shift by `gap`.
+inline Pose rotate_about_section(const BentSection& section, const Quat& turn,
+                                 const Vec3& gap = Vec3::Zero()) {
   return {section.centroid_A - turn * section.centroid_B + gap, turn};
 }
 
-/// What the halves would become.
+/// Structures of two halves, with the pair that rejoin_bent() takes.
 struct Bent {
   Structure a, b;
   BentPair pair;

@@ -1,3 +1,4 @@
+// Tests of the sparse block Cholesky factorization against dense matrices.
 #include "fracture/stress/block_cholesky.h"
 
 #include <Eigen/Cholesky>
@@ -11,7 +12,7 @@ namespace {
 using Block = BlockCholesky::Block;
 using Nodal = std::vector<Six<double>>;
 
-/// Nodes side by side in a plane, `width` in a row, each held to its neighbours and to the world.
+/// Returns the pairs of neighbours of a plane lattice of nodes with `width` nodes per row.
 std::vector<BlockCholesky::Pair> lattice(std::uint32_t nodes, std::uint32_t width) {
   std::vector<BlockCholesky::Pair> pairs;
   for (std::uint32_t i = 0; i < nodes; ++i) {
@@ -27,7 +28,7 @@ Block random_block(Random& random) {
   return block;
 }
 
-TEST(BlockCholesky, SolvesAsADenseMatrixIsSolved) {
+TEST(BlockCholesky, MatchesADenseSolve) {
   for (const std::uint32_t nodes : {1u, 2u, 7u, 30u, 70u}) {
     Random random(nodes);
     const auto pairs = lattice(nodes, 5);
@@ -59,7 +60,7 @@ TEST(BlockCholesky, SolvesAsADenseMatrixIsSolved) {
   }
 }
 
-TEST(BlockCholesky, SaysSoIfAMatrixIsNotPositiveDefinite) {
+TEST(BlockCholesky, ReportsAMatrixThatIsNotPositiveDefinite) {
   const std::vector<BlockCholesky::Pair> pairs = {{0, 1}};
   BlockCholesky matrix(2, pairs);
   matrix.add(0, 0, Block::Identity());
@@ -68,8 +69,8 @@ TEST(BlockCholesky, SaysSoIfAMatrixIsNotPositiveDefinite) {
   EXPECT_FALSE(matrix.factorize());
 }
 
-TEST(BlockCholesky, NodesThatHoldOntoNothingElseCostNoMoreThanThemselves) {
-  constexpr std::uint32_t kNodes = 20000;  // 115 GB as a dense matrix
+TEST(BlockCholesky, UnconnectedNodesCostOneProductEach) {
+  constexpr std::uint32_t kNodes = 20000;  // A dense matrix would have 115 GB.
   BlockCholesky matrix(kNodes, {});
   for (std::uint32_t i = 0; i < kNodes; ++i) matrix.add(i, i, 2 * Block::Identity());
   ASSERT_TRUE(matrix.factorize());

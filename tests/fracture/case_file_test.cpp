@@ -1,4 +1,4 @@
-// A break can be carried out again from its case file.
+// Tests that case files replay breaks, and of errors in case files.
 #include "fracture/check/case_file.h"
 
 #include <cstdio>
@@ -33,9 +33,9 @@ BreakCase example(const char* solid = "voronoi:7") {
 }
 
 TEST(CaseFile, replays_to_the_same_bits) {
-  const double endless = std::numeric_limits<double>::infinity();
-  for (const auto& [solid, radius] : {std::pair("voronoi:7", .6), std::pair("voronoi:7", endless),
-                                      std::pair("hall:2", 1.5), std::pair("hall:2", endless)}) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const auto& [solid, radius] : {std::pair("voronoi:7", .6), std::pair("voronoi:7", infinity),
+                                      std::pair("hall:2", 1.5), std::pair("hall:2", infinity)}) {
     BreakCase written = example(solid);
     written.command.radius_m = radius;
     std::stringstream file;
@@ -71,12 +71,13 @@ TEST(CaseFile, keeps_a_plug) {
   EXPECT_EQ(hash_of(again), hash_of(break_compound(written.compound, written.command)));
 }
 
-TEST(CaseFile, is_written_where_a_break_fails_and_says_the_same) {
-  // A convex that claims more volume than it has: its parts cannot add up.
-  auto liar = std::make_shared<Convex>(*box_compound(Vec3::Zero(), Vec3::Ones()).convexes[0]);
-  liar->solid.volume_m3 *= 1.5;
+TEST(CaseFile, is_written_for_a_failed_break_with_its_solid_and_seed) {
+  // A convex that claims more volume than it has; the volumes of its parts cannot add up to it.
+  auto inconsistent =
+      std::make_shared<Convex>(*box_compound(Vec3::Zero(), Vec3::Ones()).convexes[0]);
+  inconsistent->solid.volume_m3 *= 1.5;
   Compound solid = box_compound(Vec3::Zero(), Vec3::Ones());
-  solid.convexes[0] = liar;
+  solid.convexes[0] = inconsistent;
 
   const std::string folder = testing::TempDir();
   const auto log = std::make_shared<FailureLog>(folder, 2);
@@ -85,7 +86,7 @@ TEST(CaseFile, is_written_where_a_break_fails_and_says_the_same) {
   for (command.event = 7001; command.event < 7004; ++command.event) {
     EXPECT_EQ(breaker->plan(Structure(solid), command).loose.failed, 1u);
   }
-  EXPECT_EQ(log->failed(), 0u);  // none of them has been carried out
+  EXPECT_EQ(log->failed(), 0u);  // No break has been applied.
   breaker->on_applied(breaker->plan(Structure(solid), command).loose);
   EXPECT_EQ(log->failed(), 1u);
   EXPECT_DOUBLE_EQ(log->failed_m3(), 1.5);
@@ -100,7 +101,7 @@ TEST(CaseFile, is_written_where_a_break_fails_and_says_the_same) {
   EXPECT_FALSE(std::ifstream(folder + "/break-7003.case").good());
 }
 
-TEST(CaseFile, is_not_written_where_all_goes_well) {
+TEST(CaseFile, is_not_written_for_a_successful_break) {
   const auto log = std::make_shared<FailureLog>(testing::TempDir());
   const auto breaker = make_pattern_breaker(log);
   EXPECT_TRUE(breaker->plan(Structure(example().compound), example().command).changed);
@@ -131,21 +132,21 @@ TEST(CaseFile, keeps_visual_meshes_and_the_fit) {
   EXPECT_EQ(hash_of(again), hash_of(break_compound(written.compound, written.command)));
 }
 
-TEST(CaseFile, whose_pattern_is_nowhere_or_whose_bonds_bond_nothing_is_an_error) {
-  const auto refused = [](const auto& spoil) {
-    BreakCase spoilt = example();
-    spoil(spoilt);
+TEST(CaseFile, with_an_invalid_pattern_pose_or_bond_is_an_error) {
+  const auto refused = [](const auto& invalidate) {
+    BreakCase invalid = example();
+    invalidate(invalid);
     std::stringstream file;
-    write_case(file, spoilt);
+    write_case(file, invalid);
     EXPECT_THROW(read_case(file, "spoilt.case"), InputError);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double radius : {0., -1., nan})
-    refused([&](BreakCase& spoilt) { spoilt.command.radius_m = radius; });
-  refused([](BreakCase& spoilt) { spoilt.command.stretch_P.setZero(); });
-  refused([](BreakCase& spoilt) { spoilt.command.X_RP.rotation.coeffs().setZero(); });
-  refused([&](BreakCase& spoilt) { spoilt.command.X_RP.position.x() = nan; });
-  refused([](BreakCase& spoilt) { spoilt.compound.bonds[0].b = spoilt.compound.bonds[0].a; });
+    refused([&](BreakCase& invalid) { invalid.command.radius_m = radius; });
+  refused([](BreakCase& invalid) { invalid.command.stretch_P.setZero(); });
+  refused([](BreakCase& invalid) { invalid.command.X_RP.rotation.coeffs().setZero(); });
+  refused([&](BreakCase& invalid) { invalid.command.X_RP.position.x() = nan; });
+  refused([](BreakCase& invalid) { invalid.compound.bonds[0].b = invalid.compound.bonds[0].a; });
 }
 
 TEST(CaseFile, cut_short_anywhere_is_an_error) {
@@ -158,7 +159,7 @@ TEST(CaseFile, cut_short_anywhere_is_an_error) {
   }
 }
 
-TEST(CaseFile, cut_short_between_words_says_so) {
+TEST(CaseFile, cut_short_between_words_is_reported_as_such) {
   std::stringstream file;
   write_case(file, example());
   const std::string text = file.str();

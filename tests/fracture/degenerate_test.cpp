@@ -1,5 +1,5 @@
-// Cuts where geometry gives no clear answer, sizes from a nanometre to a thousand kilometres, and
-// what must not depend on anything: order, threads, company.
+// Tests of degenerate cuts, of sizes from a nanometre to a thousand kilometres, and of independence
+// from order, threads and other breaks at once.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,10 +20,10 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 BreakPlan cut(const Compound& solid, const Pattern& pattern, const Placement& placement) {
-  return fracture(solid, pattern, placement, {placement.origin_R, kEndless}, 1);
+  return fracture(solid, pattern, placement, {placement.origin_R, kInfinity}, 1);
 }
 
 BreakCommand impact(PatternSpec::Kind kind, int cells, const Vec3& at, double radius) {
@@ -35,7 +35,7 @@ BreakCommand impact(PatternSpec::Kind kind, int cells, const Vec3& at, double ra
   return command;
 }
 
-TEST(DegenerateCuts, through_vertices_and_along_faces_keep_every_truth) {
+TEST(DegenerateCuts, through_vertices_and_along_faces_keep_every_invariant) {
   // Cells of side 1 on a grid of boxes of side 1: planes lie in the boxes' faces, or half way.
   const Compound solid = grid_compound(4, 4, 4);
   const Pattern cubes = grid_pattern(4);
@@ -43,49 +43,49 @@ TEST(DegenerateCuts, through_vertices_and_along_faces_keep_every_truth) {
     for (const double size : {1., 2., 3., .5}) {
       const Placement placement{size * Mat3::Identity(), Vec3(2, 2 + shift, 2 - shift)};
       const BreakPlan plan = cut(solid, cubes, placement);
-      EXPECT_EQ(broken_truth(solid, plan), "") << shift << " " << size;
+      EXPECT_EQ(find_violation(solid, plan), "") << shift << " " << size;
       EXPECT_EQ(plan.failed, 0u);
     }
   }
 }
 
-TEST(DegenerateCuts, along_diagonals_keep_every_truth) {
+TEST(DegenerateCuts, along_diagonals_keep_every_invariant) {
   const Compound solid = grid_compound(3, 3, 3);
-  const Mat3 turned =
+  const Mat3 rotation =
       Quat(std::cos(std::numbers::pi / 8), 0, 0, std::sin(std::numbers::pi / 8)).toRotationMatrix();
   const Pattern cubes = grid_pattern(4);
   for (const double size : {std::numbers::sqrt2, std::numbers::sqrt2 / 2, 2.}) {
-    const BreakPlan plan = cut(solid, cubes, {size * turned, Vec3::Constant(1.5)});
-    EXPECT_EQ(broken_truth(solid, plan), "") << size;
+    const BreakPlan plan = cut(solid, cubes, {size * rotation, Vec3::Constant(1.5)});
+    EXPECT_EQ(find_violation(solid, plan), "") << size;
     EXPECT_GT(plan.pieces.size(), 8u);
   }
 }
 
-TEST(DegenerateCuts, by_cells_without_thickness_keep_every_truth) {
+TEST(DegenerateCuts, by_cells_without_thickness_keep_every_invariant) {
   const Compound solid = box_compound(Vec3::Constant(-1), Vec3::Constant(1));
   for (const double thin : {1e-6, 1e-9, 1e-12, 1e-15}) {
     std::vector<Vec3> sites{Vec3::Zero(), Vec3(0, thin, 0), Vec3(0, 2 * thin, 0), Vec3(.5, .1, 0)};
     const BreakPlan plan = cut(solid, voronoi_pattern(sites), {});
-    EXPECT_EQ(broken_truth(solid, plan), "") << thin;
+    EXPECT_EQ(find_violation(solid, plan), "") << thin;
     EXPECT_EQ(plan.failed, 0u) << thin;
     EXPECT_GE(plan.pieces.size(), 2u) << thin;
   }
 }
 
-TEST(DegenerateCuts, of_solids_of_any_size_keep_every_truth) {
+TEST(DegenerateCuts, of_solids_of_any_size_keep_every_invariant) {
   for (const double size : {1e-9, 1e-6, 1e-3, 1., 1e3, 1e6}) {
     for (const auto kind : {PatternSpec::Kind::kVoronoi, PatternSpec::Kind::kGrid}) {
       const int cells = kind == PatternSpec::Kind::kGrid ? 3 : 30;
       std::vector<Part> parts;
-      for (const double x : {0., 1., 1.75}) {  // the last two overlap
+      for (const double x : {0., 1., 1.75}) {  // The last two boxes overlap.
         parts.push_back(
             {make_box(size * Vec3(x, 0, 0), size * Vec3(x + 1, 1, 1)), MaterialIndex(0u), 0});
       }
       const Compound solid = make_compound(parts, 1e-6 * size);
       EXPECT_EQ(solid.ghosts.size(), 1u) << size;
       const BreakPlan plan =
-          break_compound(solid, impact(kind, cells, size * Vec3(1, .5, .5), kEndless));
-      EXPECT_EQ(broken_truth(solid, plan), "") << size;
+          break_compound(solid, impact(kind, cells, size * Vec3(1, .5, .5), kInfinity));
+      EXPECT_EQ(find_violation(solid, plan), "") << size;
       EXPECT_GT(plan.pieces.size(), cells == 3 ? 2u : 15u) << size;
       EXPECT_EQ(plan.failed, 0u);
     }
@@ -152,7 +152,7 @@ TEST(Fracture, covers_space_as_its_parent_by_winding_numbers) {
   for (const char* name : {"torus:1,.3", "hall:2"}) {
     const Compound solid = make_solid(name);
     const Box box = bounds(solid);
-    BreakCommand command = impact(PatternSpec::Kind::kVoronoi, 40, box.center(), kEndless);
+    BreakCommand command = impact(PatternSpec::Kind::kVoronoi, 40, box.center(), kInfinity);
     command.stretch_P = Vec3(1, .5, 2).asDiagonal();
     const BreakPlan plan = break_compound(solid, command);
     ASSERT_GT(plan.pieces.size(), 10u);
@@ -170,7 +170,7 @@ TEST(Fracture, keeps_volume_after_export_to_single_precision) {
   for (const char* name : {"box:1,2,3", "torus:1,.3", "voronoi:30"}) {
     const Compound solid = make_solid(name);
     const BreakPlan plan =
-        break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 60, Vec3(.1, .2, .1), kEndless));
+        break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 60, Vec3(.1, .2, .1), kInfinity));
     double exported = 0;
     for (const Compound& piece : plan.pieces) {
       for (const ConvexPtr& convex : piece.convexes) {
@@ -183,24 +183,24 @@ TEST(Fracture, keeps_volume_after_export_to_single_precision) {
   }
 }
 
-TEST(Fracture, of_coloured_cells_makes_as_many_pieces_as_colours_that_hang_together) {
+TEST(Fracture, of_coloured_cells_makes_one_piece_per_colour) {
   const Compound solid = box_compound(Vec3::Constant(-1), Vec3::Constant(1));
   BreakCommand command = impact(PatternSpec::Kind::kGrid, 4, Vec3::Zero(), 1);
   command.pattern.colors = 5;
   const BreakPlan plan = break_compound(solid, command);
-  EXPECT_EQ(broken_truth(solid, plan), "");
+  EXPECT_EQ(find_violation(solid, plan), "");
   EXPECT_EQ(plan.pieces.size(), 5u);
   const auto is_large = [](const Compound& piece) { return piece.convexes.size() > 1; };
   EXPECT_GT(std::count_if(plan.pieces.begin(), plan.pieces.end(), is_large), 2);
 }
 
-TEST(Fracture, by_a_deformed_pattern_welds_to_cells_as_large_as_the_determinant_says) {
+TEST(Fracture, by_a_deformed_pattern_welds_cells_scaled_by_its_determinant) {
   const Pattern cubes = grid_pattern(4);
   const Compound solid = grid_compound(9, 9, 9, Vec3::Constant(1. / 3));
   Mat3 linear;
   linear << .8, .3, 0, -.1, .7, .2, 0, .1, .9;
   const BreakPlan plan = cut(solid, cubes, {linear, Vec3::Constant(1.5)});
-  EXPECT_EQ(broken_truth(solid, plan), "");
+  EXPECT_EQ(find_violation(solid, plan), "");
   EXPECT_GT(plan.welded, 20u);
   int cells = 0;
   for (const Compound& piece : plan.pieces) {

@@ -1,4 +1,4 @@
-// Patterns from .obj files, good and bad.
+// Tests of patterns from .obj files, valid and invalid.
 #include <iomanip>
 #include <sstream>
 
@@ -49,14 +49,14 @@ std::string message_of(const std::string& obj) {
   return "accepted";
 }
 
-TEST(FilePattern, breaks_as_its_cells_say_even_if_rounded) {
+TEST(FilePattern, breaks_into_its_cells_even_if_rounded) {
   for (const int digits : {17, 6}) {
     std::istringstream in(as_obj(cells_of(voronoi_compound(20, 3)), digits));
     const Pattern pattern = read_pattern(in, "cells.obj");
     EXPECT_EQ(pattern.cells.size(), 20u + 6);
     const Compound solid = box_compound(Vec3(-.4, -.3, -.4), Vec3(.4, .4, .3));
     const BreakPlan plan = fracture(solid, pattern, {}, {Vec3::Zero(), 2}, 1);
-    EXPECT_EQ(broken_truth(solid, plan), "") << digits << " digits";
+    EXPECT_EQ(find_violation(solid, plan), "") << digits << " digits";
     EXPECT_EQ(plan.failed, 0u);
     EXPECT_GE(plan.pieces.size(), 15u);
     EXPECT_LT(plan.debris_volume_m3, 1e-4 * volume(solid));
@@ -76,10 +76,10 @@ TEST(FilePattern, groups_of_one_material_stay_together) {
   const BreakPlan plan = fracture(solid, pattern, {}, {Vec3::Zero(), 2}, 1);
   ASSERT_EQ(plan.pieces.size(), 2u);
   EXPECT_NEAR(std::max(volume(plan.pieces[0]), volume(plan.pieces[1])), 0.75, 1e-12);
-  EXPECT_EQ(broken_truth(solid, plan), "");
+  EXPECT_EQ(find_violation(solid, plan), "");
 }
 
-TEST(FilePattern, says_what_is_wrong_with_a_file) {
+TEST(FilePattern, reports_errors_in_a_file) {
   const std::string box = as_obj({make_box(Vec3(-1, -1, -1), Vec3(1, 1, 1))}, 6);
   EXPECT_EQ(message_of(box), "accepted");
   EXPECT_NE(message_of("").find("has no cells"), std::string::npos);

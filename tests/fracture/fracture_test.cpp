@@ -1,4 +1,4 @@
-// What a break must keep, step by step and as a whole.
+// Tests of whole breaks: invariants, unchanged convexes, unbreakable materials, exposed faces.
 #include "fracture/fracture.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 PatternSpec voronoi(int cells) {
   PatternSpec spec;
@@ -54,10 +54,10 @@ BreakCommand impact(const PatternSpec& pattern, const Vec3& at, double radius,
   return command;
 }
 
-TEST(Fracture, keeps_every_truth_when_a_box_breaks_whole) {
+TEST(Fracture, keeps_every_invariant_when_a_whole_box_breaks) {
   const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
-  const BreakPlan plan = break_compound(box, impact(voronoi(50), Vec3(0.2, 0.1, 0.3), kEndless));
-  EXPECT_EQ(broken_truth(box, plan), "");
+  const BreakPlan plan = break_compound(box, impact(voronoi(50), Vec3(0.2, 0.1, 0.3), kInfinity));
+  EXPECT_EQ(find_violation(box, plan), "");
 
   EXPECT_GT(plan.pieces.size(), 35u);
   EXPECT_EQ(plan.failed, 0u);
@@ -68,8 +68,8 @@ TEST(Fracture, breaks_every_solid_that_is_built_in) {
   for (const char* name : {"box:1,2,3", "column:.5,2", "torus:1,.3", "grid:3,2,1", "voronoi:9"}) {
     const Compound solid = make_solid(name);
     EXPECT_EQ(find_islands(solid.convexes.size(), solid.bonds).back(), 0u) << name;
-    const BreakPlan plan = break_compound(solid, impact(voronoi(30), Vec3(.7, .2, .1), kEndless));
-    EXPECT_EQ(broken_truth(solid, plan), "") << name;
+    const BreakPlan plan = break_compound(solid, impact(voronoi(30), Vec3(.7, .2, .1), kInfinity));
+    EXPECT_EQ(find_violation(solid, plan), "") << name;
     EXPECT_GT(plan.pieces.size(), 5u) << name;
   }
   for (const char* name :
@@ -92,7 +92,7 @@ TEST(Fracture, covers_every_point_exactly_once) {
   }
 }
 
-TEST(Fracture, that_misses_gives_back_its_input) {
+TEST(Fracture, that_misses_returns_its_input) {
   const Compound wall = grid_compound(4, 4, 1);
   const BreakPlan plan = break_compound(wall, impact(voronoi(50), Vec3(20, 0, 0), 1));
   ASSERT_EQ(plan.pieces.size(), 1u);
@@ -101,12 +101,12 @@ TEST(Fracture, that_misses_gives_back_its_input) {
   EXPECT_EQ(plan.untouched, wall.convexes.size());
 }
 
-TEST(Fracture, leaves_convexes_outside_the_sphere_the_very_same) {
+TEST(Fracture, keeps_convexes_outside_the_sphere_as_the_same_objects) {
   const Compound wall = grid_compound(10, 10, 2, Vec3(0.4, 0.2, 0.2), true);
   const Vec3 at(2.1, 1.1, 0.4);
   const BreakPlan plan = break_compound(wall, impact(voronoi(50), at, 0.5));
   ASSERT_TRUE(plan.broke());
-  EXPECT_EQ(broken_truth(wall, plan), "");
+  EXPECT_EQ(find_violation(wall, plan), "");
   const ImpactSphere sphere{at, 0.5};
   std::set<const Convex*> kept;
   for (const Compound& piece : plan.pieces) {
@@ -118,12 +118,12 @@ TEST(Fracture, leaves_convexes_outside_the_sphere_the_very_same) {
   EXPECT_TRUE(plan.pieces[0].is_anchored());
 }
 
-TEST(Fracture, joins_what_is_outside_the_sphere_into_one_compound) {
+TEST(Fracture, joins_the_parts_outside_the_sphere_into_one_piece) {
   const Compound pane = box_compound(Vec3(-1, -1, -.003), Vec3(1, 1, .003));
   BreakCommand command = impact(web(6, 12), Vec3(0.2, 0.1, 0), 0.4);
   command.X_RP.rotation = Quat(Mat3((Mat3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished()));
   const BreakPlan plan = break_compound(pane, command);
-  EXPECT_EQ(broken_truth(pane, plan), "");
+  EXPECT_EQ(find_violation(pane, plan), "");
   ASSERT_GT(plan.pieces.size(), 50u);
   double largest = 0;
   for (const Compound& piece : plan.pieces) {
@@ -140,7 +140,7 @@ TEST(Fracture, joins_what_is_outside_the_sphere_into_one_compound) {
   EXPECT_GT(largest, 0.8 * volume(pane));
 }
 
-TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
+TEST(Fracture, aligns_a_web_with_its_pane_at_the_impact) {
   const auto breaker = make_pattern_breaker();
   const Compound pane = box_compound(Vec3(-1, -1, -.003), Vec3(1, 1, .003));
   Material glass;
@@ -153,7 +153,7 @@ TEST(Fracture, turns_a_web_into_the_plane_of_its_pane_around_the_impact) {
   EXPECT_NEAR(std::abs(axis.z()), 1, 1e-12);
   const BreakPlan plan = break_compound(pane, command);
   ASSERT_GT(plan.pieces.size(), 50u);
-  int at_the_impact = 0;  // the innermost pieces meet at the impact
+  int at_the_impact = 0;  // The innermost pieces meet at the impact.
   for (const Compound& piece : plan.pieces) {
     for (const ConvexPtr& convex : piece.convexes) {
       for (const Vec3& vertex : convex->polyhedron.vertices) {
@@ -182,7 +182,7 @@ TEST(Fracture, uses_the_pattern_of_the_impacts_strength) {
   EXPECT_EQ(radius(5000).pattern.kind, PatternSpec::Kind::kWeb);
 }
 
-TEST(Fracture, spares_the_materials_that_do_not_break) {
+TEST(Fracture, lists_the_unbreakable_materials_in_its_command) {
   const Compound box = box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   std::vector<Material> materials(4);
   materials[0].pattern = voronoi(10);
@@ -192,7 +192,7 @@ TEST(Fracture, spares_the_materials_that_do_not_break) {
   EXPECT_EQ(command.unbreakable, (std::vector{MaterialIndex(1u), MaterialIndex(3u)}));
 }
 
-/// Convexes side by side, a metre wide each, of the materials given.
+/// Returns convexes in a row, each a metre wide, of the given materials.
 Compound row_of(std::initializer_list<std::uint32_t> materials) {
   std::vector<Part> parts;
   for (const std::uint32_t material : materials) {
@@ -202,12 +202,12 @@ Compound row_of(std::initializer_list<std::uint32_t> materials) {
   return make_compound(std::move(parts));
 }
 
-TEST(Fracture, parts_what_it_breaks_from_what_it_spares_along_the_bond) {
+TEST(Fracture, separates_breakable_from_unbreakable_convexes_at_their_bond) {
   const Compound row = row_of({0, 1});
   BreakCommand command = impact(eighths(), Vec3(.5, .5, .5), 0.6);
   command.unbreakable = {MaterialIndex(1u)};
   const BreakPlan plan = break_compound(row, command);
-  EXPECT_EQ(broken_truth(row, plan), "");
+  EXPECT_EQ(find_violation(row, plan), "");
   ASSERT_EQ(plan.pieces.size(), 9u);
   EXPECT_EQ(plan.pieces[0].convexes, std::vector{row.convexes[1]});
   EXPECT_NEAR(plan.new_area_m2, 3 + 1, 1e-12);
@@ -219,11 +219,11 @@ TEST(Fracture, parts_what_it_breaks_from_what_it_spares_along_the_bond) {
   EXPECT_NEAR(exposed, 2 * plan.new_area_m2, 1e-12);
 }
 
-TEST(Fracture, charges_a_face_it_spares_to_each_of_the_materials_that_broke_off_it) {
+TEST(Fracture, attributes_an_unbreakable_face_to_each_material_that_broke_off_it) {
   Compound bar = make_compound({{make_box(Vec3(0, 0, 0), Vec3(1, 1, 1)), MaterialIndex(0u)},
                                 {make_box(Vec3(1, 0, 0), Vec3(3, 1, 1)), MaterialIndex(2u)},
                                 {make_box(Vec3(0, -1, 0), Vec3(3, 0, 1)), MaterialIndex(1u)}});
-  BreakCommand command = impact(voronoi(9), Vec3(1, .5, .5), kEndless);
+  BreakCommand command = impact(voronoi(9), Vec3(1, .5, .5), kInfinity);
   command.unbreakable = {MaterialIndex(1u)};
   const BreakPlan plan = break_compound(bar, command);
   double area[3] = {};
@@ -236,34 +236,35 @@ TEST(Fracture, charges_a_face_it_spares_to_each_of_the_materials_that_broke_off_
   EXPECT_NEAR(area[2], 2, 1e-12);
 }
 
-TEST(Fracture, holds_together_what_it_spares_and_what_is_out_of_its_reach) {
+TEST(Fracture, keeps_unbreakable_and_unreached_convexes_together) {
   const Compound row = row_of({1, 1, 0, 1, 0, 0});
   BreakCommand command = impact(eighths(), Vec3(2.5, .5, .5), 0.9);
   command.unbreakable = {MaterialIndex(1u)};
   const BreakPlan plan = break_compound(row, command);
-  EXPECT_EQ(broken_truth(row, plan), "");
+  EXPECT_EQ(find_violation(row, plan), "");
   std::vector<std::vector<ConvexPtr>> whole;
   for (const Compound& piece : plan.pieces) {
     if (piece.convexes[0]->material == MaterialIndex(1u) || piece.convexes.size() > 1)
       whole.push_back(piece.convexes);
   }
-  const auto& was = row.convexes;
-  EXPECT_EQ(whole,
-            (std::vector<std::vector<ConvexPtr>>{{was[3], was[4], was[5]}, {was[0], was[1]}}));
+  const auto& before = row.convexes;
+  EXPECT_EQ(whole, (std::vector<std::vector<ConvexPtr>>{{before[3], before[4], before[5]},
+                                                        {before[0], before[1]}}));
 }
 
 TEST(Fracture, does_not_depend_on_the_order_of_convexes) {
   const Compound wall = grid_compound(5, 4, 2, Vec3(0.4, 0.2, 0.2), true);
-  Compound turned = wall;
+  Compound reversed = wall;
   const auto last = static_cast<std::uint32_t>(wall.convexes.size() - 1);
-  std::reverse(turned.convexes.begin(), turned.convexes.end());
-  std::reverse(turned.anchored.begin(), turned.anchored.end());
-  for (Bond& bond : turned.bonds) {
+  std::reverse(reversed.convexes.begin(), reversed.convexes.end());
+  std::reverse(reversed.anchored.begin(), reversed.anchored.end());
+  for (Bond& bond : reversed.bonds) {
     bond = {last - bond.b, last - bond.a, bond.face_b, bond.face_a, bond.area_m2};
   }
-  sort_bonds(turned.bonds);
+  sort_bonds(reversed.bonds);
   const auto pieces = [&](const Compound& solid) {
-    std::multiset<std::pair<double, std::size_t>> found;  // volume and bonds of each piece
+    // Smallest volume of a convex, and number of bonds, of each piece.
+    std::multiset<std::pair<double, std::size_t>> found;
     for (const Compound& piece :
          break_compound(solid, impact(voronoi(40), Vec3(1, .4, .2), 0.5)).pieces) {
       double least = std::numeric_limits<double>::infinity();
@@ -274,7 +275,7 @@ TEST(Fracture, does_not_depend_on_the_order_of_convexes) {
     }
     return found;
   };
-  EXPECT_EQ(pieces(wall), pieces(turned));
+  EXPECT_EQ(pieces(wall), pieces(reversed));
 }
 
 TEST(Fracture, is_the_same_for_any_number_of_threads) {
@@ -288,7 +289,7 @@ TEST(Fracture, is_the_same_for_any_number_of_threads) {
   EXPECT_EQ(hashes.size(), 1u);
 }
 
-TEST(Fracture, keeps_the_truths_at_many_places_to_any_depth) {
+TEST(Fracture, keeps_the_invariants_in_repeated_breaks_at_many_places) {
   const Compound wall = grid_compound(6, 6, 1, Vec3(0.4, 0.3, 0.2), true);
   std::vector<Compound> solids{wall};
   double debris = 0;
@@ -303,7 +304,7 @@ TEST(Fracture, keeps_the_truths_at_many_places_to_any_depth) {
         Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(box.extent());
     const double radius = 0.4 * box.extent().norm();
     const BreakPlan plan = break_compound(solid, impact(voronoi(12), at, radius, ++event));
-    ASSERT_EQ(broken_truth(solid, plan), "") << "round " << round;
+    ASSERT_EQ(find_violation(solid, plan), "") << "round " << round;
     ASSERT_EQ(plan.failed, 0u);
     debris += plan.debris_volume_m3;
     solids[which] = plan.pieces[0];
@@ -315,9 +316,10 @@ TEST(Fracture, keeps_the_truths_at_many_places_to_any_depth) {
   EXPECT_GT(solids.size(), 200u);
 }
 
-TEST(Fracture, reports_as_exposed_what_it_laid_bare) {
+TEST(Fracture, reports_all_new_area_as_exposed) {
   const Compound bricks = grid_compound(3, 3, 3);
-  const BreakPlan plan = break_compound(bricks, impact(voronoi(30), Vec3(1.5, 1.5, 1.5), kEndless));
+  const BreakPlan plan =
+      break_compound(bricks, impact(voronoi(30), Vec3(1.5, 1.5, 1.5), kInfinity));
   double exposed = 0;
   for (const ExposedFace& face : plan.exposed) {
     const ConvexPolyhedron& polyhedron = plan.pieces[face.piece].convexes[face.convex]->polyhedron;
@@ -325,7 +327,7 @@ TEST(Fracture, reports_as_exposed_what_it_laid_bare) {
     exposed += face.area_m2;
   }
   EXPECT_NEAR(exposed, 2 * plan.new_area_m2, 1e-12 * exposed);
-  double surface = 0;  // all of the pieces, less what is hidden inside them
+  double surface = 0;  // Surface of all pieces, minus the faces hidden inside them.
   for (const Compound& piece : plan.pieces) {
     for (const ConvexPtr& convex : piece.convexes) {
       for (std::size_t f = 0; f < convex->polyhedron.faces.size(); ++f) {
@@ -337,9 +339,9 @@ TEST(Fracture, reports_as_exposed_what_it_laid_bare) {
   EXPECT_NEAR(surface, 6 * 9 + exposed, 1e-9 * surface);
 }
 
-TEST(Fracture, keeps_anchored_only_what_still_reaches_the_held_side) {
+TEST(Fracture, keeps_anchored_only_pieces_at_the_anchored_side) {
   const Compound block = box_compound(Vec3(-1, 0, -1), Vec3(1, 2, 1), 1);
-  const BreakPlan plan = break_compound(block, impact(voronoi(40), Vec3(0, 1, 0), kEndless));
+  const BreakPlan plan = break_compound(block, impact(voronoi(40), Vec3(0, 1, 0), kInfinity));
   std::size_t anchored = 0;
   for (const Compound& piece : plan.pieces) {
     const bool reaches = bounds(piece).min.y() < 1e-9;

@@ -1,4 +1,4 @@
-// Beams, portals and arches in convexes, with what beam theory says of them.
+// Test fixture: beams, portals and arches of convexes, with their stresses.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace sunder::fracture {
 inline constexpr double kDensity = 2400, kGravity = 9.81;
 inline const Vec3 kDown(0, -kGravity, 0);
 
-/// Concrete, and a foundation that never breaks.
+/// Returns concrete as material 0, and a foundation that never breaks as material 1.
 inline std::vector<Material> stone(double tensile_Pa = 0) {
   Material material;
   material.density_kg_m3 = kDensity;
@@ -24,7 +24,7 @@ inline std::vector<Material> stone(double tensile_Pa = 0) {
   return {material, foundation};
 }
 
-/// The box [low, high] in nx × ny × nz convexes.
+/// Appends the box [low, high] as nx × ny × nz convexes.
 inline void add_grid(const Vec3& low, const Vec3& high, int nx, int ny, int nz, bool anchored,
                      std::vector<Part>& parts) {
   const Vec3 step = (high - low).cwiseQuotient(Vec3(nx, ny, nz));
@@ -39,8 +39,8 @@ inline void add_grid(const Vec3& low, const Vec3& high, int nx, int ny, int nz, 
   }
 }
 
-/// A bar along x from 0 to `length`, of square section `width`, in `along`·`across`² boxes, fixed
-/// by one more layer before x = 0, and after the end as well if it is `held_twice`.
+/// Returns a bar along x from 0 to `length`, of square section `width`, in `along`·`across`² boxes.
+/// The bar is anchored by one more layer before x = 0, and by one after its end if `held_twice`.
 inline Compound bar(double length, double width, int along, int across, bool held_twice = false) {
   std::vector<Part> parts;
   const double dx = length / along;
@@ -70,7 +70,7 @@ inline StressSystem system_of(const Compound& compound, const std::vector<Materi
   return StressSystem(compound, std::move(geometry), materials);
 }
 
-/// Stress under own weight and loads, solved as the simulation solves it.
+/// Returns the maximum stresses under self-weight and loads, solved as in the simulation.
 inline BondStress worst_stress(const Compound& compound, std::vector<ConvexLoad> loads = {},
                                const Vec3& gravity = kDown, double tolerance = 1e-3) {
   const StressSystem system = system_of(compound, stone());

@@ -1,4 +1,4 @@
-// Patterns tile their box.
+// Tests that patterns tile their box, and of their numbers and sizes of cells.
 #include "fracture/pattern/pattern.h"
 
 #include <cmath>
@@ -72,7 +72,7 @@ TEST(Pattern, of_every_other_kind_tiles_its_box) {
   expect_tiling(web_pattern(1, 9, 0.3, 1));
 }
 
-TEST(Pattern, of_bricks_never_has_too_many) {
+TEST(Pattern, of_bricks_has_a_bounded_number_of_cells) {
   EXPECT_LE(brick_pattern(Vec3(0.01, 0.02, 0.01)).cells.size(), kMostBricks + 100u);
   EXPECT_EQ(brick_pattern(Vec3(100, 1, 1)).cells.size(), 3u * (1 + 2 + 2) + 4);
 }

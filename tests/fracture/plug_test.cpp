@@ -1,4 +1,5 @@
-// Plugs that strikers drive out of solids: energies against closed forms, and pieces that add up.
+// Tests of plugs that strikers drive out of solids, against closed forms and by volume, and of the
+// number of cracks that an impact's energy makes.
 #include "fracture/plug.h"
 
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
-#include "fracture/pattern/detail.h"
+#include "fracture/pattern/cell_limit.h"
 #include "fracture/pattern_breaker.h"
 #include "tests/fracture/solids.h"
 
@@ -28,7 +29,7 @@ Material brick() {
   return material;
 }
 
-/// A ball of 0.4 m and 2.1 t that strikes the middle of a wall of 0.4 m along z.
+/// Returns the impact of a ball of 0.4 m and 2.1 t in the middle of a wall of 0.4 m along z.
 StructureImpact shot(double speed_m_s, double radius_m = 0.4, double thickness_m = 0.4) {
   StructureImpact hit;
   hit.point_R = Vec3(0.1, 0.2, 0);
@@ -45,7 +46,7 @@ StructureImpact shot(double speed_m_s, double radius_m = 0.4, double thickness_m
   return hit;
 }
 
-TEST(Plug, takes_the_energy_that_CEA_EDF_and_UKAEA_give) {
+TEST(Plug, takes_the_perforation_energy_of_CEA_EDF_and_UKAEA) {
   Material material = brick();
   material.reinforcement_percent = 0.7;
   const auto limit_m_s = [&] {
@@ -79,7 +80,7 @@ TEST(Plug, goes_through_above_the_limit_and_as_deep_as_the_energy_lasts_below) {
   EXPECT_NEAR(below->depth_m, 0.4 * std::pow(0.25, 0.375), 1e-3);
 }
 
-TEST(Plug, needs_a_solid_that_goes_on_around_it) {
+TEST(Plug, needs_a_solid_that_extends_around_it) {
   Pose X_RP;
   StructureImpact hit = shot(40);
   hit.confined = false;
@@ -119,7 +120,7 @@ TEST(Plug, leaves_a_hole_and_keeps_the_volume) {
   }
 }
 
-TEST(Plug, without_a_pattern_takes_the_convexes_in_its_way) {
+TEST(Plug, without_a_pattern_takes_the_convexes_in_its_path) {
   Material chunks = brick();
   chunks.pattern.kind = PatternSpec::Kind::kNone;
   const std::vector<Material> materials{chunks};
@@ -169,7 +170,7 @@ TEST(Plug, has_rings_of_cracks_around_it_that_are_no_regular_polygons) {
   EXPECT_GT(spread, 0.4);
 }
 
-TEST(Detail, is_what_a_tenth_of_the_energy_pays_for) {
+TEST(Detail, costs_at_most_a_tenth_of_the_energy) {
   const Material material = brick();
   StructureImpact hit;
   hit.reached_m3 = 1;
@@ -180,7 +181,7 @@ TEST(Detail, is_what_a_tenth_of_the_energy_pays_for) {
     PatternSpec pattern;
     pattern.kind = PatternSpec::Kind::kVoronoi;
     pattern.cells = 512;
-    reduce_to_energy(material, hit, radius_m, 0, pattern);
+    limit_cells_by_energy(material, hit, radius_m, 0, pattern);
     EXPECT_GE(pattern.cells, before);
     before = pattern.cells;
     const double sphere_m3 = 4.0 / 3 * std::numbers::pi;
@@ -204,13 +205,13 @@ TEST(Detail, of_a_web_goes_down_to_three_spokes_and_a_ring) {
   PatternSpec pattern;
   pattern.kind = PatternSpec::Kind::kWeb;
   pattern.rings = 7, pattern.spokes = 14;
-  reduce_to_energy(brick(), hit, 0.7, 0.006, pattern);
+  limit_cells_by_energy(brick(), hit, 0.7, 0.006, pattern);
   EXPECT_EQ(pattern.rings, 1);
   EXPECT_EQ(pattern.spokes, 3);
   PatternSpec bricks;
   bricks.kind = PatternSpec::Kind::kBrick;
-  reduce_to_energy(brick(), hit, 0.7, 0.006, bricks);
-  EXPECT_EQ(bricks.cells, PatternSpec().cells);  // of a size, not of a number
+  limit_cells_by_energy(brick(), hit, 0.7, 0.006, bricks);
+  EXPECT_EQ(bricks.cells, PatternSpec().cells);  // Bricks have a size and not a number of cells.
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The truths, over thousands of random breaks of random solids; every failure names its seed.
+// Tests of the invariants over thousands of random breaks; every failure prints its seed.
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -60,8 +60,8 @@ PatternSpec random_pattern(Random& random) {
   return spec;
 }
 
-/// Breaks of all kinds; a third of them snapped to the solid's corners, faces and axes, where
-/// planes of the pattern run through vertices and along faces.
+/// Returns a random break; a third of them are snapped to the solid's corners, faces and axes,
+/// where planes of the pattern go through vertices and along faces.
 BreakCommand random_impact(Random& random, const Compound& solid, std::uint64_t event) {
   BreakCommand command;
   command.event = event;
@@ -87,7 +87,7 @@ BreakCommand random_impact(Random& random, const Compound& solid, std::uint64_t 
   return command;
 }
 
-TEST(Truths, hold_over_ten_thousand_random_breaks) {
+TEST(Invariants, hold_over_ten_thousand_random_breaks) {
   constexpr std::size_t kBreaks = 10000;
   std::vector<std::string> problems(kBreaks);
   std::vector<std::uint32_t> pieces(kBreaks), failed(kBreaks);
@@ -98,7 +98,7 @@ TEST(Truths, hold_over_ten_thousand_random_breaks) {
       const Compound solid = random_solid(random, seed);
       const BreakCommand command = random_impact(random, solid, seed + 1);
       const BreakPlan plan = break_compound(solid, command);
-      problems[seed] = broken_truth(solid, plan);
+      problems[seed] = find_violation(solid, plan);
       pieces[seed] = static_cast<std::uint32_t>(plan.pieces.size());
       failed[seed] = plan.failed;
       debris[seed] = plan.debris_volume_m3 / volume(solid);
@@ -120,34 +120,38 @@ TEST(Truths, hold_over_ten_thousand_random_breaks) {
               failures, most_debris);
 }
 
-constexpr MaterialIndex kWhole[] = {MaterialIndex(1u), MaterialIndex(3u)};
+constexpr MaterialIndex kUnbreakable[] = {MaterialIndex(1u), MaterialIndex(3u)};
 
-bool is_whole(const Convex& convex) { return std::ranges::count(kWhole, convex.material) > 0; }
+bool is_unbreakable(const Convex& convex) {
+  return std::ranges::count(kUnbreakable, convex.material) > 0;
+}
 
-/// The same solid, of four materials two of which do not break.
-Compound mixed(Compound solid, Random& random) {
+/// Returns the solid with four materials, two of which are unbreakable.
+Compound with_mixed_materials(Compound solid, Random& random) {
   for (ConvexPtr& convex : solid.convexes) {
     convex = make_convex(convex->polyhedron, MaterialIndex(random.below(4)));
   }
   return solid;
 }
 
-/// How much of a compound's bonds joins so many convexes that do not break.
-double bonded_m2(const Compound& compound, int whole) {
+/// Returns the area of bonds between convexes of which exactly `count` (0 to 2) are unbreakable.
+double bonded_m2(const Compound& compound, int count) {
   double area = 0;
   for (const Bond& bond : compound.bonds) {
-    const bool a = is_whole(*compound.convexes[bond.a]), b = is_whole(*compound.convexes[bond.b]);
-    if (a + b == whole) area += bond.area_m2;
+    const bool a = is_unbreakable(*compound.convexes[bond.a]),
+               b = is_unbreakable(*compound.convexes[bond.b]);
+    if (a + b == count) area += bond.area_m2;
   }
   return area;
 }
 
-/// Empty if a break left whole what does not break, and counted what it cost to part from it.
-std::string broken_promise(const Compound& parent, const BreakPlan& plan) {
+/// Returns an empty string if a break kept all unbreakable convexes and counted the area broken off
+/// them; otherwise the violation.
+std::string find_unbreakable_violation(const Compound& parent, const BreakPlan& plan) {
   std::vector<ConvexPtr> before, after;
   const auto note = [](const Compound& compound, std::vector<ConvexPtr>& all) {
     std::ranges::copy_if(compound.convexes, std::back_inserter(all),
-                         [](const ConvexPtr& convex) { return is_whole(*convex); });
+                         [](const ConvexPtr& convex) { return is_unbreakable(*convex); });
   };
   note(parent, before);
   double both_m2 = bonded_m2(parent, 2), parted_m2 = bonded_m2(parent, 1), exposed_m2 = 0;
@@ -162,32 +166,32 @@ std::string broken_promise(const Compound& parent, const BreakPlan& plan) {
   double sides_m2 = 0;
   for (const ExposedFace& face : plan.exposed) {
     const Convex& convex = *plan.pieces[face.piece].convexes[face.convex];
-    if (std::ranges::count(kWhole, face.material) > 0) return "what does not break cracked";
-    if (is_whole(convex)) exposed_m2 += face.area_m2;
+    if (std::ranges::count(kUnbreakable, face.material) > 0) return "what does not break cracked";
+    if (is_unbreakable(convex)) exposed_m2 += face.area_m2;
     sides_m2 += face.area_m2;
   }
   // Contacts may be too small to count.
   const double least_m2 = 1e-4 * bounds(parent).extent().squaredNorm();
   if (std::abs(sides_m2 - 2 * plan.new_area_m2) > least_m2) return "a crack with one side";
-  if (!parent.ghosts.empty()) return {};  // bonds count overlaps twice
+  if (!parent.ghosts.empty()) return {};  // Bonds count overlaps twice.
   if (std::abs(both_m2) > least_m2) return "what does not break parted";
   if (std::abs(parted_m2 - exposed_m2) > least_m2) return "parted for another price";
   return {};
 }
 
-TEST(Truths, hold_where_some_materials_do_not_break) {
+TEST(Invariants, hold_where_some_materials_do_not_break) {
   constexpr std::size_t kBreaks = 2000;
   std::vector<std::string> problems(kBreaks);
   std::vector<double> parted(kBreaks), kept(kBreaks);
   for_chunks(kBreaks, 50, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t seed = begin; seed < end; ++seed) {
       Random random(seed, 41);
-      const Compound solid = mixed(random_solid(random, seed), random);
+      const Compound solid = with_mixed_materials(random_solid(random, seed), random);
       BreakCommand command = random_impact(random, solid, seed + 1);
-      command.unbreakable.assign(std::begin(kWhole), std::end(kWhole));
+      command.unbreakable.assign(std::begin(kUnbreakable), std::end(kUnbreakable));
       const BreakPlan plan = break_compound(solid, command);
-      problems[seed] = broken_truth(solid, plan);
-      if (problems[seed].empty()) problems[seed] = broken_promise(solid, plan);
+      problems[seed] = find_violation(solid, plan);
+      if (problems[seed].empty()) problems[seed] = find_unbreakable_violation(solid, plan);
       if (plan.failed > 0) problems[seed] += " a convex failed";
       const double bonded = bonded_m2(solid, 1);
       if (bonded == 0 || !solid.ghosts.empty()) continue;
@@ -206,8 +210,8 @@ TEST(Truths, hold_where_some_materials_do_not_break) {
   std::printf("%.0f of bonds parted, %.0f kept\n", all_parted, all_kept);
 }
 
-/// Breaks of breaks of what overlaps: whether the ghosts still fit after several cuts.
-TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
+/// Breaks pieces of overlapping convexes again and again; the ghosts have to fit after each.
+TEST(Invariants, hold_where_convexes_overlap_over_three_generations) {
   std::size_t pieces = 0, ghosts = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Random random(seed, 31);
@@ -220,7 +224,8 @@ TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
       const Compound target = solids[which];
       const BreakCommand command = random_impact(random, target, 10 * seed + generation);
       const BreakPlan plan = break_compound(target, command);
-      ASSERT_EQ(broken_truth(target, plan), "") << "seed " << seed << " generation " << generation;
+      ASSERT_EQ(find_violation(target, plan), "")
+          << "seed " << seed << " generation " << generation;
       EXPECT_EQ(plan.failed, 0u);
       after += plan.debris_volume_m3;
       solids[which] = plan.pieces[0];
@@ -237,7 +242,7 @@ TEST(Truths, hold_where_convexes_overlap_over_three_generations) {
   EXPECT_GT(ghosts, 2000u);
 }
 
-TEST(Truths, survive_torture_to_five_levels) {
+TEST(Invariants, hold_over_five_levels_of_breaks) {
   std::vector<Compound> solids{box_compound(Vec3(-1, -1, -1), Vec3(1, 1, 1))};
   double debris = 0;
   std::uint64_t event = 0;
@@ -253,7 +258,7 @@ TEST(Truths, survive_torture_to_five_levels) {
       command.X_RP.position = bounds(solid).center() + 1e-3 * random.direction();
       command.radius_m = std::numeric_limits<double>::infinity();
       const BreakPlan plan = break_compound(solid, command);
-      ASSERT_EQ(broken_truth(solid, plan), "") << "event " << event;
+      ASSERT_EQ(find_violation(solid, plan), "") << "event " << event;
       ASSERT_EQ(plan.failed, 0u) << "event " << event;
       debris += plan.debris_volume_m3;
       next.insert(next.end(), plan.pieces.begin(), plan.pieces.end());

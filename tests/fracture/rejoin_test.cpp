@@ -1,5 +1,4 @@
-// Two halves of a beam that have bent become one: it weighs, holds together and bears as one would
-// that was made so.
+// Tests that two bent halves of a beam become a compound equal to one that was made bent.
 #include "fracture/rejoin.h"
 
 #include <cmath>
@@ -20,16 +19,16 @@ namespace {
 
 const Plane kMiddle = Plane::through(Vec3::Zero(), Vec3::UnitX());
 
-/// A beam along x from −1 to 1 that the world holds at its beginning.
+/// A beam along x from −1 to 1 that is anchored at its beginning.
 struct Beam {
-  int along = 8, deep = 2, wide = 2;
+  int along = 8, tall = 2, wide = 2;
   double depth_m = 0.4, width_m = 0.3;
 
   Compound compound(const std::vector<Box>& more = {}) const {
     std::vector<Part> parts;
-    const Vec3 size(2.0 / along, depth_m / deep, width_m / wide);
+    const Vec3 size(2.0 / along, depth_m / tall, width_m / wide);
     for (int i = 0; i < along; ++i) {
-      for (int j = 0; j < deep; ++j) {
+      for (int j = 0; j < tall; ++j) {
         for (int k = 0; k < wide; ++k) {
           const Vec3 low = Vec3(-1, 0, 0) + size.cwiseProduct(Vec3(i, j, k));
           parts.push_back({make_box(low, low + size), MaterialIndex(0u), i == 0});
@@ -40,20 +39,22 @@ struct Beam {
       parts.push_back({make_box(box.min, box.max), MaterialIndex(0u), false});
     return make_compound(std::move(parts));
   }
-  Halves halves(const std::vector<Box>& more = {}) const { return parted(compound(more), kMiddle); }
+  Halves halves(const std::vector<Box>& more = {}) const {
+    return split_at_plane(compound(more), kMiddle);
+  }
 };
 
 Beam random_beam(Random& random) {
   Beam beam;
   beam.along = 2 * (1 + static_cast<int>(random.below(5)));
-  beam.deep = 1 + static_cast<int>(random.below(4));
+  beam.tall = 1 + static_cast<int>(random.below(4));
   beam.wide = 1 + static_cast<int>(random.below(3));
   beam.depth_m = random.uniform(0.1, 0.5);
   beam.width_m = random.uniform(0.1, 0.5);
   return beam;
 }
 
-/// By an angle between 1e-6 rad and 120°, evenly in its logarithm, about any axis across the beam.
+/// Returns a bend of 1e-6 rad to 120°, uniform in its logarithm, about an axis across the beam.
 Quat random_bend(Random& random) {
   const double angle = 1e-6 * std::pow(120 * kRadian / 1e-6, random.uniform(0, 1));
   Vec3 axis = Vec3::Unit(1 + random.below(2));
@@ -64,7 +65,7 @@ Quat random_bend(Random& random) {
   return Quat(Eigen::AngleAxisd(angle, axis));
 }
 
-/// The same faces touch, over the same areas.
+/// Expects bonds between the same faces, with the same areas.
 void expect_same_bonds(const std::vector<Bond>& bonds, const std::vector<Bond>& expected) {
   ASSERT_EQ(bonds.size(), expected.size());
   for (std::size_t i = 0; i < bonds.size(); ++i) {
@@ -76,7 +77,7 @@ void expect_same_bonds(const std::vector<Bond>& bonds, const std::vector<Bond>& 
 
 double mass_kg(const Compound& compound) { return mass_of(compound, stone()).mass_kg; }
 
-/// The halves as one, or nothing if they stay two; checks what is true of every such compound.
+/// Returns the halves as one compound, checked for invariants, or nothing if they stay two.
 std::optional<Compound> rejoined(const Bent& bent) {
   const Rejoined result = rejoin_bent(bent.pair);
   if (!result.edit.changed) return std::nullopt;
@@ -89,7 +90,8 @@ std::optional<Compound> rejoined(const Bent& bent) {
   }
   EXPECT_EQ(split_islands(one).size(), 1u);
   expect_same_bonds(one.bonds, find_contacts(one.convexes));
-  expect_same_bonds(one.bonds, contacts_by_distance(one, 1e-12));  // whatever planes are named
+  // The reference does not depend on plane ids.
+  expect_same_bonds(one.bonds, contacts_by_distance(one, 1e-12));
   const double before_kg = mass_kg(bent.a.compound()) + mass_kg(bent.b.compound());
   EXPECT_NEAR(mass_kg(one), before_kg, 1e-12 * before_kg);
   EXPECT_EQ(result.slot_of_b.size(), bent.b.slot_count());
@@ -109,27 +111,27 @@ double volume_of_polyhedra(const Compound& compound) {
   return sum;
 }
 
-TEST(Rejoin, AnyBentBeamIsAsIfItWasMadeSo) {
+TEST(Rejoin, AnyBentBeamHasTheBondsAndMassOfOneMadeBent) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed, 3);
     const Beam beam = random_beam(random);
     const Compound whole = beam.compound();
-    const Halves halves = parted(whole, kMiddle);
-    const Bent bent(halves, turned(halves.section, random_bend(random)), seed);
+    const Halves halves = split_at_plane(whole, kMiddle);
+    const Bent bent(halves, rotate_about_section(halves.section, random_bend(random)), seed);
     const double bend = Eigen::AngleAxisd(bent.pair.X_AB.rotation).angle();
     const double reach_m = std::hypot(beam.depth_m, beam.width_m) / 2 * std::tan(bend / 2);
     const auto one = rejoined(bent);
-    if (!one && reach_m > 1 - 2.0 / beam.along) continue;  // the world would let it go
+    if (!one && reach_m > 1 - 2.0 / beam.along) continue;  // Anchored convexes would be cut away.
     ASSERT_TRUE(one);
-    // Long enough for the mitre, it loses on the inside what it gains on the outside.
+    // A beam long enough for the mitre loses on the inside what it gains on the outside.
     if (reach_m < 1) {
       EXPECT_NEAR(volume_of_polyhedra(*one), volume_of_polyhedra(whole), 1e-12);
     }
     std::size_t held = 0;
     for (const std::uint8_t anchored : one->anchored) held += anchored != 0;
     if (reach_m < 1 - 2.0 / beam.along) {
-      EXPECT_EQ(held, static_cast<std::size_t>(beam.deep * beam.wide));
+      EXPECT_EQ(held, static_cast<std::size_t>(beam.tall * beam.wide));
     }
     for (int i = 0; i < 200; ++i) {
       const Vec3 point = halves.section.centroid_A + test::random_point(random, 0.5);
@@ -138,7 +140,7 @@ TEST(Rejoin, AnyBentBeamIsAsIfItWasMadeSo) {
   }
 }
 
-TEST(Rejoin, WhatIsTwistedAndDrawnOutKeepsItsMass) {
+TEST(Rejoin, ATwistedAndElongatedBeamKeepsItsMass) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed, 4);
@@ -147,16 +149,18 @@ TEST(Rejoin, WhatIsTwistedAndDrawnOutKeepsItsMass) {
     const Quat twist(Eigen::AngleAxisd(random.uniform(-1, 1), Vec3::UnitX()));
     const Quat bend(Eigen::AngleAxisd(random.uniform(0, 1.5), Vec3::UnitY()));
     const Vec3 gap = 0.02 * beam.depth_m * Vec3(random.uniform(0, 1), random.uniform(-1, 1), 0);
-    EXPECT_TRUE(rejoined(Bent(halves, turned(halves.section, bend * twist, gap), seed)));
+    EXPECT_TRUE(
+        rejoined(Bent(halves, rotate_about_section(halves.section, bend * twist, gap), seed)));
   }
 }
 
-TEST(Rejoin, WhatOverlapsBesideTheSectionStillDoes) {
+TEST(Rejoin, GhostsBesideTheSectionAreKept) {
   const Beam beam;
   const Compound whole = beam.compound({{Vec3(0.8, -0.05, 0.1), Vec3(0.95, 0.45, 0.2)}});
   ASSERT_GT(whole.ghosts.size(), 1u);
-  const Halves halves = parted(whole, kMiddle);
-  const Bent bent(halves, turned(halves.section, Quat(Eigen::AngleAxisd(1, Vec3::UnitZ()))));
+  const Halves halves = split_at_plane(whole, kMiddle);
+  const Bent bent(halves,
+                  rotate_about_section(halves.section, Quat(Eigen::AngleAxisd(1, Vec3::UnitZ()))));
   const Rejoined result = rejoin_bent(bent.pair);
   ASSERT_TRUE(result.edit.changed);
   Structure structure = bent.a;
@@ -179,22 +183,22 @@ TEST(Rejoin, WhatOverlapsBesideTheSectionStillDoes) {
   EXPECT_EQ(split_islands(one).size(), 1u);
 }
 
-TEST(Rejoin, ABeamBendsToAndFroInOnePlace) {
-  for (const int deep : {1, 3}) {
+TEST(Rejoin, ABeamBendsBackAndForthAtOneSection) {
+  for (const int tall : {1, 3}) {
     Beam beam;
-    beam.deep = deep;
+    beam.tall = tall;
     Compound one = beam.compound();
     const double before_kg = mass_kg(one);
     const std::size_t convexes = one.convexes.size();
     Plane section = kMiddle;
-    Random random(7, static_cast<std::uint64_t>(deep));
+    Random random(7, static_cast<std::uint64_t>(tall));
     for (std::uint64_t time = 1; time <= 50; ++time) {
       SCOPED_TRACE(time);
-      const Halves halves = parted(one, section);
+      const Halves halves = split_at_plane(one, section);
       ASSERT_FALSE(halves.section.slots_a.empty());
       const double angle = (time % 2 == 0 ? 1 : -1) * random.uniform(0.1, 0.6);
       const Quat bend(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
-      const Bent bent(halves, turned(halves.section, bend), time);
+      const Bent bent(halves, rotate_about_section(halves.section, bend), time);
       const auto next = rejoined(bent);
       ASSERT_TRUE(next);
       section = bent.midplane();
@@ -206,10 +210,11 @@ TEST(Rejoin, ABeamBendsToAndFroInOnePlace) {
   }
 }
 
-TEST(Rejoin, WhatCannotEndInOneMidplaneStaysTwo) {
+TEST(Rejoin, HalvesWithoutACommonMidplaneAreNotRejoined) {
   const Beam beam;
   const auto bent_by = [&](const Halves& halves, double angle) {
-    return Bent(halves, turned(halves.section, Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()))));
+    return Bent(halves, rotate_about_section(halves.section,
+                                             Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()))));
   };
   const auto stays_two = [](const BentPair& pair) {
     const Rejoined result = rejoin_bent(pair);
@@ -223,19 +228,19 @@ TEST(Rejoin, WhatCannotEndInOneMidplaneStaysTwo) {
   twice.pair.sections.push_back(halves.section);
   EXPECT_TRUE(stays_two(twice.pair));
 
-  for (const double x : {-0.2, 0.1})  // beside the section, on either side
+  for (const double x : {-0.2, 0.1})  // A box beside the section, on either side.
     EXPECT_TRUE(
         stays_two(bent_by(beam.halves({{Vec3(x, -0.05, 0), Vec3(x + 0.1, 0.45, 0.1)}}), 0.1).pair));
 }
 
-TEST(Rejoin, WhatTheWorldHoldsItHoldsOn) {
-  Beam beam;  // of which one layer is held, and the section is beside it
+TEST(Rejoin, AnchorsAreKept) {
+  Beam beam;  // One layer is anchored, and the section is beside it.
   beam.along = 20;
   const Compound whole = beam.compound();
-  const Halves halves = parted(whole, Plane::through(Vec3(-0.9, 0, 0), Vec3::UnitX()));
+  const Halves halves = split_at_plane(whole, Plane::through(Vec3(-0.9, 0, 0), Vec3::UnitX()));
   for (double angle = 0.1; angle < 2.5; angle += 0.1) {
     const Quat bend(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
-    const auto one = rejoined(Bent(halves, turned(halves.section, bend)));
+    const auto one = rejoined(Bent(halves, rotate_about_section(halves.section, bend)));
     if (!one) continue;
     std::size_t held = 0;
     for (const std::uint8_t anchored : one->anchored) held += anchored != 0;
@@ -251,11 +256,12 @@ TEST(Rejoin, EveryMaterialKeepsItsMass) {
   std::vector<Material> materials = stone();
   materials[1].density_kg_m3 = 7 * kDensity;
   const double before_kg = mass_of(whole, materials).mass_kg;
-  const Halves halves = parted(whole, kMiddle);
+  const Halves halves = split_at_plane(whole, kMiddle);
   for (const double angle : {-1.5, -0.2, 0.3, 1.0}) {
     const Vec3 gap(0.01, 0, 0);
-    const Bent bent(halves,
-                    turned(halves.section, Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())), gap));
+    const Bent bent(
+        halves,
+        rotate_about_section(halves.section, Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())), gap));
     const auto one = rejoined(bent);
     ASSERT_TRUE(one);
     EXPECT_NEAR(mass_of(*one, materials).mass_kg, before_kg, 1e-12 * before_kg) << angle;
@@ -263,7 +269,7 @@ TEST(Rejoin, EveryMaterialKeepsItsMass) {
 }
 
 TEST(Rejoin, TwoSectionsBendAtOnce) {
-  // A portal: its beam comes to lie on its two legs otherwise than it did.
+  // A portal, whose beam rests on its two legs displaced.
   std::vector<Part> parts;
   add_grid(Vec3(0, 0, 0), Vec3(0.5, 1, 0.5), 1, 2, 1, true, parts);
   add_grid(Vec3(0, 1, 0), Vec3(0.5, 2, 0.5), 1, 2, 1, false, parts);
@@ -272,7 +278,7 @@ TEST(Rejoin, TwoSectionsBendAtOnce) {
   add_grid(Vec3(0.5, 0, 0), Vec3(2.5, 0.5, 0.5), 4, 1, 1, true, parts);
   add_grid(Vec3(0, 2, 0), Vec3(3, 2.5, 0.5), 6, 1, 1, false, parts);
   const Compound whole = make_compound(std::move(parts));
-  Halves halves = parted(whole, Plane::through(Vec3(0, 1, 0), Vec3::UnitY()));
+  Halves halves = split_at_plane(whole, Plane::through(Vec3(0, 1, 0), Vec3::UnitY()));
   BentSection left, right;
   const BentSection& both = halves.section;
   ASSERT_EQ(both.slots_a.size(), 2u);
@@ -286,7 +292,8 @@ TEST(Rejoin, TwoSectionsBendAtOnce) {
     section.slots_a = {both.slots_a[i]}, section.faces_a = {both.faces_a[i]};
     section.slots_b = {both.slots_b[i]}, section.faces_b = {both.faces_b[i]};
   }
-  Bent bent(halves, turned(left, Quat(Eigen::AngleAxisd(0.01, Vec3::UnitX())), Vec3(0.02, 0, 0)));
+  Bent bent(halves, rotate_about_section(left, Quat(Eigen::AngleAxisd(0.01, Vec3::UnitX())),
+                                         Vec3(0.02, 0, 0)));
   bent.pair.sections = {left, right};
   const auto one = rejoined(bent);
   ASSERT_TRUE(one);
@@ -294,12 +301,13 @@ TEST(Rejoin, TwoSectionsBendAtOnce) {
   EXPECT_EQ(one->bonds.size(), whole.bonds.size());
 }
 
-TEST(Rejoin, ABentBeamBearsWhatItWouldIfMadeSo) {
+TEST(Rejoin, ABentBeamHasTheStressOfOneMadeBent) {
   const Beam beam{20, 2, 2, 0.2, 0.2};
   const Halves halves = beam.halves();
   for (const double angle : {0.05, 0.7}) {
-    const auto one = rejoined(
-        Bent(halves, turned(halves.section, Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())))));
+    const auto one =
+        rejoined(Bent(halves, rotate_about_section(halves.section,
+                                                   Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())))));
     ASSERT_TRUE(one);
     std::vector<Part> parts;
     for (std::size_t c = 0; c < one->convexes.size(); ++c) {
@@ -316,13 +324,14 @@ TEST(Rejoin, ABentBeamBearsWhatItWouldIfMadeSo) {
   }
 }
 
-TEST(Rejoin, WhatWasBentBreaksAsAnythingDoes) {
+TEST(Rejoin, ABentBeamKeepsTheInvariantsWhenItBreaks) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed, 5);
     const Halves halves = random_beam(random).halves();
-    const Vec3 gap(seed % 2 == 0 ? 0 : 0.01, 0, 0);  // drawn out: thinner than it looks
-    const Bent bent(halves, turned(halves.section, random_bend(random), gap), seed);
+    // An elongated bar is thinner than its polyhedra.
+    const Vec3 gap(seed % 2 == 0 ? 0 : 0.01, 0, 0);
+    const Bent bent(halves, rotate_about_section(halves.section, random_bend(random), gap), seed);
     const auto one = rejoined(bent);
     ASSERT_TRUE(one);
     BreakCommand command;
@@ -333,7 +342,7 @@ TEST(Rejoin, WhatWasBentBreaksAsAnythingDoes) {
     const BreakPlan plan = break_compound(*one, command);
     EXPECT_TRUE(plan.broke());
     EXPECT_TRUE(plan.failed == 0 || !gap.isZero());
-    EXPECT_EQ(broken_truth(*one, plan), "");
+    EXPECT_EQ(find_violation(*one, plan), "");
   }
 }
 

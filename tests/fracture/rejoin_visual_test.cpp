@@ -1,4 +1,4 @@
-// What has bent and owns its visual mesh: its meshes end where its convexes do.
+// Tests that visual meshes of bent convexes stay closed within their convexes.
 #include <gtest/gtest.h>
 
 #include "engine/geometry/polygon_mesh.h"
@@ -12,7 +12,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// A round bar along x that owns its surface, in pieces that a break made.
+/// Returns a round bar along x with a visual mesh, in pieces that a break made.
 Compound round_bar(std::uint64_t seed) {
   PolygonMesh mesh = polygon_mesh(make_prism(test::regular_polygon(12, 0.2), -1, 1, false));
   for (Vec3& v : mesh.vertices) v = Vec3(v.y(), v.x(), -v.z());
@@ -35,10 +35,10 @@ Compound round_bar(std::uint64_t seed) {
 }
 
 void expect_watertight_where_it_bends(const Compound& whole, const Plane& plane, double angle) {
-  const Halves halves = parted(whole, plane);
+  const Halves halves = split_at_plane(whole, plane);
   ASSERT_FALSE(halves.section.slots_a.empty());
   const Quat bend(Eigen::AngleAxisd(angle, plane.normal.unitOrthogonal()));
-  const Bent bent(halves, turned(halves.section, bend), 100);
+  const Bent bent(halves, rotate_about_section(halves.section, bend), 100);
   const Rejoined result = rejoin_bent(bent.pair);
   ASSERT_TRUE(result.edit.changed);
   Structure structure = bent.a;
@@ -54,7 +54,7 @@ void expect_watertight_where_it_bends(const Compound& whole, const Plane& plane,
   EXPECT_NEAR(volume(one), volume(whole), 1e-12);
 }
 
-TEST(Rejoin, WhatOwnsItsSurfaceStaysWatertight) {
+TEST(Rejoin, VisualMeshesStayWatertight) {
   int tried = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);

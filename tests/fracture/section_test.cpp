@@ -1,4 +1,4 @@
-// What sections bear, against the theory of plasticity, and what they have to, against statics.
+// Tests of the strength of sections against plastic theory, and of their loads against statics.
 #include "fracture/stress/section.h"
 
 #include <cmath>
@@ -31,7 +31,7 @@ struct Loaded {
   std::vector<Displacement> displacements;
 };
 
-/// A beam along x, its root at x = 0 and its end at `length`, of one section in boxes.
+/// Returns a beam along x of one section in boxes, anchored at x = 0 and free at `length`.
 Compound extruded(const std::vector<Box>& section, double length, int along) {
   std::vector<Part> parts;
   for (int i = -1; i < along; ++i) {
@@ -48,7 +48,7 @@ Box flat(double y_0, double y_1, double z_0, double z_1) {
   return {Vec3(0, y_0, z_0), Vec3(0, y_1, z_1)};
 }
 
-/// Divided in y and z.
+/// Divides a box in y and z.
 std::vector<Box> divided(const Box& whole, int tall, int wide) {
   std::vector<Box> boxes;
   const Vec3 step = whole.extent().cwiseQuotient(Vec3(1, tall, wide));
@@ -61,7 +61,7 @@ std::vector<Box> divided(const Box& whole, int tall, int wide) {
   return boxes;
 }
 
-TEST(Section, OfBlocksBearsWhatARectangleDoesHoweverItIsDivided) {
+TEST(Section, OfBlocksBearsAsARectangleForAnyDivision) {
   const double h = 0.6, b = 0.3, length = 4, force = 1e4;
   for (const int tall : {1, 2, 3, 4, 6}) {
     for (const int wide : {1, 2}) {
@@ -88,16 +88,16 @@ TEST(Section, OfBlocksBearsWhatARectangleDoesHoweverItIsDivided) {
   }
 }
 
-TEST(Section, OfProfilesBearsWhatTheirHalvesDo) {
+TEST(Section, OfProfilesHasTheirPlasticModulus) {
   const double b = 0.2, h = 0.3, flange = 0.02, web = 0.01;  // m
   struct Profile {
     const char* name;
     std::vector<Box> boxes;
-    double modulus_m3;  ///< About z.
+    double modulus_m3;  ///< Plastic modulus about z.
   };
   const double low = (b - web) / 2, high = (b + web) / 2;
   const double of_i = b * flange * (h - flange) + web * std::pow(h - 2 * flange, 2) / 4;
-  // The neutral axis of this T is in its flange, where that has half the area below it.
+  // The plastic neutral axis of this T is in its flange, where half of the area is below.
   const double stem = web * (h - flange), part = (b * flange - stem) / 2 / b;
   const double of_t = stem * (part + (h - flange) / 2) + b * part * part / 2 +
                       b * (flange - part) * (flange - part) / 2;
@@ -130,7 +130,7 @@ TEST(Section, OfProfilesBearsWhatTheirHalvesDo) {
   }
 }
 
-TEST(Section, OfAThinTubeIsTwistedAsBredtSays) {
+TEST(Section, OfAThinTubeBearsTorsionByBredtsFormula) {
   const double b = 0.2, wall = 0.004, middle = b - wall;
   const Section root =
       Loaded(extruded({flat(0, wall, 0, b), flat(b - wall, b, 0, b), flat(wall, b - wall, 0, wall),
@@ -140,7 +140,7 @@ TEST(Section, OfAThinTubeIsTwistedAsBredtSays) {
   EXPECT_NEAR(root.strength.moment_Nm[0] / (2 * kShear_Pa * middle * middle * wall), 1, 0.01);
 }
 
-TEST(Section, IsFullWhereARectanglePulledAndBentIs) {
+TEST(Section, IsFullyPlasticInTensionAndBendingAsARectangle) {
   const double h = 0.4, length = 4, plastic = kYield_Pa * h * h * h / 4;
   for (const double n : {-0.9, -0.5, 0.0, 0.3, 0.7, 0.95}) {
     const double full = plastic * (1 - n * n) / length;
@@ -153,7 +153,7 @@ TEST(Section, IsFullWhereARectanglePulledAndBentIs) {
   }
 }
 
-TEST(Section, OfVoronoiCellsLiesAcrossTheBarAndBearsWhatItDoes) {
+TEST(Section, OfVoronoiCellsBearsAsTheCrossSectionOfTheBar) {
   const double length = 9, force = 1e3;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Compound bar = voronoi_bar_of(60 + 70 * static_cast<int>(seed % 3), length, 1, seed);
@@ -173,7 +173,7 @@ TEST(Section, OfVoronoiCellsLiesAcrossTheBarAndBearsWhatItDoes) {
   }
 }
 
-TEST(Section, OfAMitreCountsAsSeenAlongItsMember) {
+TEST(Section, OfAMitreIsProjectedAlongItsMember) {
   const double h = 0.3, tilt = std::tan(0.6);
   std::vector<Part> parts;
   for (int k = 0; k < 2; ++k) {
@@ -196,7 +196,7 @@ TEST(Section, OfAMitreCountsAsSeenAlongItsMember) {
   EXPECT_NEAR(mitre.strength.moment_Nm.tail<2>().maxCoeff() / (kYield_Pa * h * h * h / 4), 1, 1e-6);
 }
 
-TEST(Section, EndsWhereItsMemberDoes) {
+TEST(Section, DoesNotReachIntoOtherMembers) {
   // Two columns on one footing under one beam.
   std::vector<Part> parts;
   add_grid(Vec3(0, -1, 0), Vec3(5, 0, 1), 5, 1, 1, true, parts);
@@ -211,7 +211,7 @@ TEST(Section, EndsWhereItsMemberDoes) {
   EXPECT_EQ(beam.crossings.size(), 1u) << "and not the footing below it";
 }
 
-TEST(Section, IsNoneWhereSomethingInItDoesNotYield) {
+TEST(Section, IsEmptyIfAMaterialInItCannotYield) {
   std::vector<Part> parts;
   add_grid(Vec3(0, 0, 0), Vec3(4, 1, 1), 4, 1, 1, false, parts);
   add_grid(Vec3(0, 1, 0), Vec3(4, 2, 1), 4, 1, 1, false, parts);

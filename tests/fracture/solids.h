@@ -1,4 +1,4 @@
-// Figures of breaks that tests compare.
+// Test helpers: volumes, coverage, winding numbers and hashes of compounds and break plans.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline bool contains(const ConvexPolyhedron& convex, const Vec3& point) {
   return true;
 }
 
-/// How many convexes of a compound a point lies in, less what its ghosts take back.
+/// Returns the number of convexes of a compound that contain a point, corrected by its ghosts.
 inline int cover(const Compound& compound, const Vec3& point) {
   int count = 0;
   for (const ConvexPtr& convex : compound.convexes) count += contains(convex->polyhedron, point);
@@ -81,8 +81,7 @@ inline std::uint64_t hash_of(const BreakPlan& plan) {
   return combine(hash, bits_of(plan.new_area_m2));
 }
 
-/// A hash of what a compound is whatever the order of its convexes: of each convex with what it
-/// touches and overlaps, then of these in order.
+/// Returns a hash over convexes with their contacts and overlaps, independent of their order.
 inline std::uint64_t hash_any_order(const Compound& compound) {
   std::vector<std::uint64_t> hashes;
   for (const ConvexPtr& convex : compound.convexes) {
@@ -90,7 +89,7 @@ inline std::uint64_t hash_any_order(const Compound& compound) {
   }
   const std::vector<std::uint64_t> own = hashes;
   for (std::size_t c = 0; c < own.size(); ++c) hashes[c] = combine(own[c], compound.anchored[c]);
-  for (const Bond& bond : compound.bonds) {  // sums: they do not depend on the order
+  for (const Bond& bond : compound.bonds) {  // Sums do not depend on the order.
     hashes[bond.a] += combine(own[bond.b], bits_of(bond.area_m2) + bond.face_a);
     hashes[bond.b] += combine(own[bond.a], bits_of(bond.area_m2) + bond.face_b);
   }
@@ -112,7 +111,7 @@ inline std::uint64_t hash_any_order(const BreakPlan& plan) {
   return hash;
 }
 
-/// The compound with its convexes in another order: new convex i is the old `order[i]`.
+/// Returns the compound with its convexes in another order: new convex i is the old `order[i]`.
 inline Compound reordered(const Compound& compound, const std::vector<std::uint32_t>& order) {
   Compound result;
   std::vector<std::uint32_t> new_of_old(order.size());
@@ -140,7 +139,7 @@ inline Compound reordered(const Compound& compound, const std::vector<std::uint3
   return result;
 }
 
-/// How often a surface winds around a point, by solid angles (Van Oosterom and Strackee 1983).
+/// Returns the winding number around a point, by solid angles (Van Oosterom and Strackee 1983).
 inline double winding(const ConvexPolyhedron& polyhedron, const Vec3& point) {
   double angle = 0;
   for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
@@ -165,7 +164,7 @@ inline double winding(const Compound& compound, const Vec3& point) {
   return sum;
 }
 
-/// Boxes that may overlap, as a compound.
+/// Returns a compound of boxes that may overlap.
 inline Compound compound_of(const std::vector<Box>& boxes) {
   std::vector<Part> parts;
   for (const Box& box : boxes) {
@@ -174,7 +173,7 @@ inline Compound compound_of(const std::vector<Box>& boxes) {
   return make_compound(std::move(parts));
 }
 
-/// Boxes many of which overlap.
+/// Returns boxes in and around the unit cube, many of which overlap.
 inline std::vector<Box> random_boxes(Random& random, std::uint32_t count) {
   std::vector<Box> boxes;
   for (std::uint32_t i = 0; i < count; ++i) {

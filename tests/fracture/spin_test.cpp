@@ -1,4 +1,4 @@
-// Stress in what spins, against closed forms.
+// Tests of stress by spin against closed forms.
 #include <gtest/gtest.h>
 
 #include "engine/geometry/hull.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-BondStress spun(const Compound& compound, const Vec3& spin_rad_s) {
+BondStress spin_stress(const Compound& compound, const Vec3& spin_rad_s) {
   const StressSystem system = system_of(compound, stone());
   std::vector<Displacement> displacements;
   EXPECT_TRUE(system.solve({}, Vec3::Zero(), 1e-6, 500, displacements, spin_rad_s).converged);
@@ -22,7 +22,7 @@ Compound rod(double length_m, double width_m, int along, int across) {
   return make_compound(std::move(parts));
 }
 
-/// Of wedges about y, in rings.
+/// Returns a wheel about y, of wedges in rings.
 Compound wheel(double inner_m, double outer_m, double thickness_m, int rings, int wedges) {
   std::vector<Part> parts;
   for (int r = 0; r < rings; ++r) {
@@ -42,27 +42,27 @@ Compound wheel(double inner_m, double outer_m, double thickness_m, int rings, in
   return make_compound(std::move(parts));
 }
 
-TEST(Spin, TearsARodInTheMiddle) {
+TEST(Spin, StressesARodByItsLengthAndSpin) {
   const double length = 4, omega = 30;
   const double middle = kDensity * omega * omega * length * length / 8;
   for (const int across : {1, 2}) {
-    const BondStress stress = spun(rod(length, 0.2, 40, across), Vec3(0, omega, 0));
+    const BondStress stress = spin_stress(rod(length, 0.2, 40, across), Vec3(0, omega, 0));
     EXPECT_NEAR(stress.tension_Pa / middle, 1, 0.02) << across;
     EXPECT_LT(stress.compression_Pa, 0.01 * middle);
   }
 }
 
-// A straight rod that tumbles freely is only pulled, by the part of its spin that is across it: the
-// rest of the centrifugal force is what turns its axis about. So it is for any number of convexes,
-// whose own inertia resists being turned, too.
-TEST(Spin, PullsARodThatTumblesAndDoesNotBendIt) {
+// A straight rod that tumbles freely is under tension only, by the component of its spin across the
+// rod; the rest of the centrifugal force rotates the rod's axis. This holds for any number of
+// convexes, although their own inertia resists rotation.
+TEST(Spin, StressesATumblingRodByTensionOnly) {
   const double length = 4, omega = 30;
   for (const int along : {2, 8, 40}) {
     for (const double angle : {0.3, 0.8, 1.3}) {
       const SinCos lean = sin_cos(angle);
       const double across = omega * lean.sin;
       const BondStress stress =
-          spun(rod(length, 0.1, along, 1), omega * Vec3(lean.cos, lean.sin, 0));
+          spin_stress(rod(length, 0.1, along, 1), omega * Vec3(lean.cos, lean.sin, 0));
       const double middle = kDensity * across * across * length * length / 8;
       EXPECT_NEAR(stress.tension_Pa / middle, 1, 0.03) << along << " " << angle;
       EXPECT_LT(stress.compression_Pa, 0.02 * middle) << along << " " << angle;
@@ -70,24 +70,24 @@ TEST(Spin, PullsARodThatTumblesAndDoesNotBendIt) {
   }
 }
 
-TEST(Spin, TearsARingByItsRimSpeed) {
+TEST(Spin, StressesARingByItsRimSpeed) {
   const double omega = 30, radius = 1;
-  const BondStress stress = spun(wheel(0.95, 1.05, 0.1, 1, 32), Vec3(0, omega, 0));
+  const BondStress stress = spin_stress(wheel(0.95, 1.05, 0.1, 1, 32), Vec3(0, omega, 0));
   EXPECT_NEAR(stress.tension_Pa / (kDensity * omega * omega * radius * radius), 1, 0.03);
 }
 
-// Half a disc that has a hole pulls on the other half with 2/3 ρ ω² h (r³ − a³); where it is
-// thick, more beside the hole and less at the rim, by Lamé's equations: for ν = 0, which springs
-// that do not know of each other have, (3 r² + a²)/4 of ρ ω² at the hole's edge.
-TEST(Spin, TearsADiscAtItsHole) {
+// Half of a disc with a hole pulls on the other half with 2/3 ρ ω² h (r³ − a³). In a thick ring,
+// Lamé's equations give more beside the hole and less at the rim: (3 r² + a²)/4 of ρ ω² at the
+// hole's edge for ν = 0, as for independent springs.
+TEST(Spin, StressesADiscMostAtItsHole) {
   const double omega = 30, radius = 1, hole = 0.4;
   const double edge = kDensity * omega * omega * (3 * radius * radius + hole * hole) / 4;
-  const BondStress stress = spun(wheel(hole, radius, 0.1, 12, 48), Vec3(0, omega, 0));
+  const BondStress stress = spin_stress(wheel(hole, radius, 0.1, 12, 48), Vec3(0, omega, 0));
   EXPECT_NEAR(stress.tension_Pa / edge, 1, 0.1);
 }
 
-TEST(Spin, IsNothingToWhatIsAnchored) {
-  const BondStress stress = spun(bar(4, 0.4, 20, 1), Vec3(0, 30, 0));
+TEST(Spin, DoesNotStressAnAnchoredBar) {
+  const BondStress stress = spin_stress(bar(4, 0.4, 20, 1), Vec3(0, 30, 0));
   EXPECT_LT(stress.tension_Pa + stress.compression_Pa + stress.shear_Pa, 1e-3);
 }
 

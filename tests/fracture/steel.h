@@ -1,4 +1,4 @@
-// What yields, in convexes: bars, and how they are loaded.
+// Test fixture: bars of materials that yield, and their loads.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace sunder::fracture {
 
 inline constexpr double kYield_Pa = 2.5e8;
 
-/// Steel, and a foundation of it.
+/// Returns steel twice: material 0 of the structure and material 1 of its foundation.
 inline std::vector<Material> steel() {
   Material material;
   material.density_kg_m3 = 1e-3;
@@ -22,8 +22,8 @@ inline std::vector<Material> steel() {
   return {material, material};
 }
 
-/// A bar along x from 0 to `length_m`, of section `width_m`², in Voronoi cells; fixed are those
-/// that reach the end at x = 0.
+/// Returns a bar along x from 0 to `length_m`, of section `width_m`², in Voronoi cells; cells that
+/// reach x = 0 are anchored.
 inline Compound voronoi_bar_of(int cells, double length_m, double width_m, std::uint64_t seed) {
   Random random(seed, 5);
   const Vec3 high(length_m, width_m, width_m);
@@ -46,7 +46,7 @@ inline Compound voronoi_bar_of(int cells, double length_m, double width_m, std::
   return make_compound(std::move(parts), 1e-9);
 }
 
-/// Equal forces on the convexes that reach the far end of what runs along x, at its middle.
+/// Returns equal forces on the convexes at the far end of a bar along x, at the end's middle.
 inline std::vector<ConvexLoad> pull_at_end(const Compound& compound, const Vec3& force_N) {
   const Box box = bounds(compound);
   const Vec3 middle(box.max.x(), box.center().y(), box.center().z());
@@ -58,7 +58,7 @@ inline std::vector<ConvexLoad> pull_at_end(const Compound& compound, const Vec3&
   return loads;
 }
 
-/// The bond nearest to a point, of those that face along x, or of all.
+/// Returns the index of the bond nearest to a point, among bonds of at least this |x| of normal.
 inline std::uint32_t bond_at(const StressSystem& system, const Vec3& point_R, double facing_x = 0) {
   std::uint32_t best = 0;
   const auto distance = [&](std::uint32_t i) {

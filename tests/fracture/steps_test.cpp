@@ -1,4 +1,4 @@
-// Each step of a fracture on its own.
+// Tests of each step of a fracture by itself.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -56,7 +56,7 @@ TEST(Align, moves_planes_cells_and_volumes_by_any_linear_map) {
 TEST(Align, keeps_the_origin_on_the_impact_and_opposite_names_on_the_sides_of_a_plane) {
   const Pattern pattern = grid_pattern(2);
   const AlignedPattern aligned = align(pattern, {skewed(), Vec3(4, 5, 6)}, 1, kWorld);
-  int at_impact = 0;  // eight cubes meet at the origin
+  int at_impact = 0;  // Eight cubes meet at the origin.
   for (const AlignedPattern::Cell& cell : aligned.cells) {
     for (const Vec3& vertex : aligned.cell_vertices(cell)) {
       at_impact += (vertex - Vec3(4, 5, 6)).norm() < 1e-12;
@@ -76,7 +76,7 @@ TEST(Align, names_planes_after_the_event) {
   EXPECT_NE(first.name(pattern_plane(7, false)), second.name(pattern_plane(7, false)));
 }
 
-TEST(Intersect, gives_each_cell_its_part_and_the_far_cell_what_is_left) {
+TEST(Intersect, gives_each_cell_its_part_and_the_far_cell_the_rest) {
   const Pattern pattern = grid_pattern(2);
   const AlignedPattern aligned = align(pattern, {.1 * Mat3::Identity(), Vec3::Zero()}, 1, kWorld);
   const ConvexPtr box = box_compound(Vec3::Constant(-3), Vec3::Constant(3)).convexes[0];
@@ -93,7 +93,7 @@ TEST(Intersect, gives_each_cell_its_part_and_the_far_cell_what_is_left) {
   EXPECT_NEAR(far, 216 - std::pow(3.2, 3), 1e-9);
 }
 
-TEST(Intersect, gives_back_the_very_convex_that_lies_in_one_cell) {
+TEST(Intersect, returns_the_same_object_for_a_convex_in_one_cell) {
   const AlignedPattern aligned = align(grid_pattern(2), {}, 1, kWorld);
   const ConvexPtr box = box_compound(Vec3::Constant(.1), Vec3::Constant(.9)).convexes[0];
   const Pattern pattern = grid_pattern(2);
@@ -105,9 +105,9 @@ TEST(Intersect, gives_back_the_very_convex_that_lies_in_one_cell) {
 TEST(Intersect, blends_corner_normals_along_cut_edges) {
   const Compound column = make_solid("column:1,4");
   const Pattern pattern = grid_pattern(2);
-  const Mat3 turned = Quat(.9, .1, .3, .2).normalized().toRotationMatrix();
+  const Mat3 rotation = Quat(.9, .1, .3, .2).normalized().toRotationMatrix();
   const Intersection cut =
-      intersect(align(pattern, {3 * turned, Vec3(.1, .2, .3)}, 1, kWorld), column.convexes[0]);
+      intersect(align(pattern, {3 * rotation, Vec3(.1, .2, .3)}, 1, kWorld), column.convexes[0]);
   ASSERT_GT(cut.parts.size(), 4u);
   int round = 0;
   for (const CellPart& part : cut.parts) {
@@ -117,11 +117,11 @@ TEST(Intersect, blends_corner_normals_along_cut_edges) {
         const Vec3 normal = polyhedron.corner_normals[c].cast<double>();
         EXPECT_NEAR(normal.norm(), 1, 1e-6);
         if (face.kind == FaceKind::kInterior || std::abs(face.plane.normal.y()) > .5) {
-          EXPECT_NEAR(normal.dot(face.plane.normal), 1, 1e-6);  // flat
+          EXPECT_NEAR(normal.dot(face.plane.normal), 1, 1e-6);  // A flat face.
           continue;
         }
-        // A side is shaded as the round column is: the normal is radial, on the edges exactly, and
-        // between them as the blend of both.
+        // A side is shaded round: the normal is radial on the edges, and a blend of both between
+        // them.
         Vec3 radial = polyhedron.vertices[polyhedron.corners[c]];
         radial.y() = 0;
         EXPECT_NEAR(normal.dot(radial.normalized()), 1, 1e-3);
@@ -157,12 +157,13 @@ TEST(Weld, makes_exactly_the_cell_of_parts_that_fill_it) {
     parts.pop_back();
     EXPECT_FALSE(weld(aligned, aligned.cells[c], parts, {}));
     parts.push_back(make_convex(cell, MaterialIndex(1u)));
-    EXPECT_FALSE(weld(aligned, aligned.cells[c], parts, {}));  // another material
+    // The last part has another material.
+    EXPECT_FALSE(weld(aligned, aligned.cells[c], parts, {}));
   }
   EXPECT_GT(welded, 3);
 }
 
-TEST(Group, keeps_cells_of_a_colour_together_and_what_is_outside_the_sphere_with_the_rest) {
+TEST(Group, keeps_cells_of_a_colour_together_and_convexes_outside_the_sphere_with_the_rest) {
   Pattern pattern = grid_pattern(4);
   join_colors(pattern, 3, 5);
   const Structure wall(grid_compound(8, 1, 8, Vec3::Constant(.5)));
@@ -181,7 +182,7 @@ TEST(Group, keeps_cells_of_a_colour_together_and_what_is_outside_the_sphere_with
   }
 }
 
-TEST(Islands, of_a_broken_compound_part_company) {
+TEST(Islands, become_separate_pieces) {
   const Compound two =
       make_compound({{make_box(Vec3(0, 0, 0), Vec3(1, 1, 1)), MaterialIndex(0u), 0},
                      {make_box(Vec3(3, 0, 0), Vec3(4, 1, 1)), MaterialIndex(0u), 1},
@@ -196,7 +197,7 @@ TEST(Islands, of_a_broken_compound_part_company) {
   EXPECT_FALSE(islands[0].is_anchored());
   EXPECT_DOUBLE_EQ(volume(islands[0]) + volume(islands[1]), volume(two));
 
-  const Pattern pattern = grid_pattern(2);  // it misses, but what it is given is in two parts
+  const Pattern pattern = grid_pattern(2);  // The pattern misses, but the compound is in two parts.
   const BreakPlan plan =
       fracture(two, pattern, {Mat3::Identity(), Vec3(90, 0, 0)}, {Vec3(90, 0, 0), 1}, 1);
   ASSERT_EQ(plan.pieces.size(), 2u);

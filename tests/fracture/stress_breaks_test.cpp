@@ -1,4 +1,4 @@
-// What a steady load breaks, and what it leaves alone.
+// Tests of bonds broken by steady loads.
 #include "fracture/stress/stress_breaks.h"
 
 #include <algorithm>
@@ -18,9 +18,9 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
+constexpr std::uint64_t kUnlimitedWork = std::uint64_t{1} << 40;
 
-/// An answer, and what becomes of the compound as pieces; none if nothing does.
+/// An answer, and the pieces that its edit leaves; no pieces if the edit changes nothing.
 struct Outcome : StressResult {
   std::size_t cut = 0;
   BreakPlan plan = {};
@@ -28,18 +28,18 @@ struct Outcome : StressResult {
 
 Outcome loaded(const Compound& compound, const std::vector<Material>& materials,
                std::vector<AppliedForce> loads = {}, StressCachePtr memory = nullptr,
-               std::uint64_t most_work = kPlenty) {
+               std::uint64_t most_work = kUnlimitedWork) {
   Structure structure(compound);
   Outcome outcome{break_by_stress(
       structure, {materials, loads, kDown, Vec3::Zero(), most_work, std::move(memory)})};
   outcome.cut = outcome.edit.cut.size();
-  if (outcome.edit.changed || outcome.cut > 0) outcome.plan = as_pieces(structure, outcome.edit);
+  if (outcome.edit.changed || outcome.cut > 0) outcome.plan = apply_edit(structure, outcome.edit);
   return outcome;
 }
 
 // The stress at the root of a cantilever is 6 F L / b h².
 constexpr double kLength = 4, kWidth = 0.4, kRootStrength = 1e6;
-constexpr double kSnaps_N = kRootStrength * kWidth * kWidth * kWidth / (6 * kLength);
+constexpr double kBreakingForce_N = kRootStrength * kWidth * kWidth * kWidth / (6 * kLength);
 
 std::vector<AppliedForce> at_tip(const Compound& bar, double force_N) {
   const ConvexSlot tip(bar.convexes.size() - 1);
@@ -52,8 +52,8 @@ std::vector<Material> weightless(double tensile_Pa) {
   return materials;
 }
 
-/// What is anchored has lost the beam, but for crumbs beside the root.
-void expect_snapped_at_root(const BreakPlan& plan) {
+/// Expects that the beam broke off its anchored root, with only a few small pieces beside the root.
+void expect_broken_at_root(const BreakPlan& plan) {
   std::size_t all = 0, anchored = 0, longest = 0;
   for (const Compound& piece : plan.pieces) {
     const std::size_t count = piece.convexes.size();
@@ -62,43 +62,45 @@ void expect_snapped_at_root(const BreakPlan& plan) {
     if (!piece.is_anchored()) longest = std::max(longest, count);
   }
   ASSERT_GT(plan.pieces.size(), 1u);
-  const double layer = 16;  // convexes
+  const double layer = 16;  // Number of convexes in a layer.
   EXPECT_LE(static_cast<double>(anchored), layer);
   EXPECT_GE(static_cast<double>(longest), static_cast<double>(all) - 2 * layer);
   EXPECT_LE(plan.new_area_m2, 1.5 * kWidth * kWidth);
 }
 
-TEST(StressBreaks, ACantileverWithstandsNineTenthsOfItsLoadForEverAndSnapsAtElevenTenths) {
+TEST(StressBreaks, ACantileverBearsNineTenthsOfItsLoadForeverAndBreaksAtElevenTenths) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
   StressCachePtr memory;
   for (int step = 0; step < 200; ++step) {
-    // A load that trembles is solved for anew each time; nothing must add up.
-    const double load_N = (0.9 + (step % 2 ? 0.01 : -0.01)) * kSnaps_N;
+    // A varying load is solved for again each time; its errors must not add up.
+    const double load_N = (0.9 + (step % 2 ? 0.01 : -0.01)) * kBreakingForce_N;
     const Outcome answer = loaded(compound, materials, at_tip(compound, load_N), memory);
     ASSERT_TRUE(answer.settled && answer.cut == 0 && answer.plan.pieces.empty()) << step;
     ASSERT_LE(answer.worst, 1);
     memory = answer.memory;
   }
-  const Outcome answer = loaded(compound, materials, at_tip(compound, 1.1 * kSnaps_N), memory);
+  const Outcome answer =
+      loaded(compound, materials, at_tip(compound, 1.1 * kBreakingForce_N), memory);
   EXPECT_TRUE(answer.settled);
-  expect_snapped_at_root(answer.plan);
+  expect_broken_at_root(answer.plan);
 }
 
-TEST(StressBreaks, UtilisationIsWorstAtTheRootAndGrowsWithTheLoad) {
+TEST(StressBreaks, UtilisationIsHighestAtTheRootAndGrowsWithTheLoad) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
   const Structure structure(compound);
-  for (const double part : {0.3, 0.9, 1.5}) {  // beyond the limit it is told, and nothing breaks
-    const std::vector<AppliedForce> loads = at_tip(compound, part * kSnaps_N);
-    const std::vector<float> worst =
-        utilisation_by_stress(structure, {materials, loads, kDown, Vec3::Zero(), kPlenty, nullptr});
+  // Utilisation beyond 1 is reported too, and nothing breaks.
+  for (const double part : {0.3, 0.9, 1.5}) {
+    const std::vector<AppliedForce> loads = at_tip(compound, part * kBreakingForce_N);
+    const std::vector<float> worst = utilisation_by_stress(
+        structure, {materials, loads, kDown, Vec3::Zero(), kUnlimitedWork, nullptr});
     ASSERT_EQ(worst.size(), structure.slot_count());
     const auto most = std::ranges::max_element(worst);
     EXPECT_NEAR(double{*most}, part, 0.15 * part);
     const ConvexSlot at(static_cast<std::size_t>(most - worst.begin()));
     EXPECT_LT(structure.convex(at)->solid.centroid.x(), 0.05 * kLength);
-    float half_way = 0;  // where it is bent half as much
+    float half_way = 0;  // Half way along the bar, where the moment is half as large.
     structure.for_each([&](ConvexSlot slot, const Convex& convex) {
       const double x = convex.solid.centroid.x() / kLength;
       if (x > 0.48 && x < 0.52) half_way = std::max(half_way, worst[slot.value]);
@@ -107,10 +109,10 @@ TEST(StressBreaks, UtilisationIsWorstAtTheRootAndGrowsWithTheLoad) {
   }
 }
 
-TEST(StressBreaks, WhatPartsIsLaidBareOnBothSides) {
+TEST(StressBreaks, BrokenBondsAreExposedOnBothSides) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const BreakPlan plan =
-      loaded(compound, weightless(kRootStrength), at_tip(compound, 1.1 * kSnaps_N)).plan;
+      loaded(compound, weightless(kRootStrength), at_tip(compound, 1.1 * kBreakingForce_N)).plan;
   ASSERT_GT(plan.new_area_m2, 0);
   double bare_m2 = 0;
   Vec3 out = Vec3::Zero();
@@ -125,15 +127,15 @@ TEST(StressBreaks, WhatPartsIsLaidBareOnBothSides) {
   EXPECT_LT(out.norm(), 1e-12);
 }
 
-TEST(StressBreaks, ACantileverThatIsTooLongSnapsUnderItsOwnWeightAtTheRoot) {
-  // 3 ρ g L² / h
+TEST(StressBreaks, ACantileverThatIsTooLongBreaksUnderItsSelfWeightAtTheRoot) {
+  // A cantilever's self-weight stresses its root by 3 ρ g L² / h.
   const double length = std::sqrt(kRootStrength * kWidth / (3 * kDensity * kGravity));
   EXPECT_EQ(loaded(bar(0.95 * length, kWidth, 30, 4), stone(kRootStrength)).cut, 0u);
   const Outcome answer = loaded(bar(1.05 * length, kWidth, 30, 4), stone(kRootStrength));
-  expect_snapped_at_root(answer.plan);
+  expect_broken_at_root(answer.plan);
 }
 
-TEST(StressBreaks, TheSameLoadAgainCostsOneLookAndChangesNothing) {
+TEST(StressBreaks, TheSameLoadAgainCostsLittleAndChangesNothing) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const Outcome first = loaded(compound, stone(1e9));
   const Outcome second = loaded(compound, stone(1e9), {}, first.memory);
@@ -142,10 +144,10 @@ TEST(StressBreaks, TheSameLoadAgainCostsOneLookAndChangesNothing) {
   EXPECT_EQ(first.worst, second.worst);
 }
 
-TEST(StressBreaks, WorkPutOffIsNotLost) {
+TEST(StressBreaks, DeferredWorkIsNotLost) {
   const Compound compound = bar(kLength, kWidth, 40, 4);
   const std::vector<Material> materials = weightless(kRootStrength);
-  const std::vector<AppliedForce> loads = at_tip(compound, 1.1 * kSnaps_N);
+  const std::vector<AppliedForce> loads = at_tip(compound, 1.1 * kBreakingForce_N);
   const std::uint64_t little = 3 * compound.bonds.size();
   StressCachePtr memory;
   Compound left = compound;
@@ -160,10 +162,10 @@ TEST(StressBreaks, WorkPutOffIsNotLost) {
   }
   EXPECT_GT(calls, 3);
   ASSERT_GT(pieces, 1u);
-  EXPECT_LE(left.convexes.size(), 32u);  // broken at the root, as in one go
+  EXPECT_LE(left.convexes.size(), 32u);  // The beam broke at the root, as in one call.
 }
 
-/// Half a ring of voussoirs on two footings; `keystone` leaves the middle one out if false.
+/// Returns half a ring of voussoirs on two footings, without the middle one if `keystone` is false.
 Compound arch(bool keystone) {
   const int stones = 15;
   const double pi = 3.14159265358979323846;
@@ -183,7 +185,7 @@ Compound arch(bool keystone) {
   return make_compound(std::move(parts));
 }
 
-TEST(StressBreaks, AnArchStandsByItsKeystone) {
+TEST(StressBreaks, AnArchStandsOnlyWithItsKeystone) {
   const std::vector<Material> weak_mortar = stone(1e5);
   EXPECT_EQ(loaded(arch(true), weak_mortar).cut, 0u);
   const Outcome answer = loaded(arch(false), weak_mortar);
@@ -196,7 +198,7 @@ TEST(StressBreaks, AnArchStandsByItsKeystone) {
   EXPECT_GE(falling, 6);
 }
 
-TEST(StressBreaks, WhatHangsOnNothingIsAPieceOfItsOwn) {
+TEST(StressBreaks, UnconnectedPartsBecomePieces) {
   std::vector<Part> parts;
   add_grid(Vec3(0, 0, 0), Vec3(1, 1, 1), 1, 2, 1, true, parts);
   add_grid(Vec3(0, 3, 0), Vec3(1, 4, 1), 2, 1, 1, false, parts);
@@ -208,8 +210,8 @@ TEST(StressBreaks, WhatHangsOnNothingIsAPieceOfItsOwn) {
   EXPECT_EQ(answer.plan.pieces[1].bonds.size(), 1u);
 }
 
-TEST(StressBreaks, WhatHangsByNextToNothingComesOffAndTheRestIsJudged) {
-  for (const double overlap_m : {1e-6, 1e-5, 1e-4, 1e-3}) {  // of a block beneath the tip
+TEST(StressBreaks, PartsOnTinyBondsFallOffAndTheRestIsEvaluated) {
+  for (const double overlap_m : {1e-6, 1e-5, 1e-4, 1e-3}) {  // Overlap of a block below the tip.
     std::vector<Part> parts;
     add_grid(Vec3(-0.1, 0, 0), Vec3(0, kWidth, kWidth), 1, 4, 4, true, parts);
     add_grid(Vec3::Zero(), Vec3(kLength, kWidth, kWidth), 40, 4, 4, false, parts);
@@ -221,10 +223,10 @@ TEST(StressBreaks, WhatHangsByNextToNothingComesOffAndTheRestIsJudged) {
     EXPECT_TRUE(alone.settled) << overlap_m;
     ASSERT_EQ(alone.plan.pieces.size(), 2u) << overlap_m;
     EXPECT_EQ(alone.plan.pieces[1].convexes.size(), 8u) << overlap_m;
-    const Outcome bent =
-        loaded(alone.plan.pieces[0], materials, at_tip(alone.plan.pieces[0], 1.1 * kSnaps_N));
+    const Outcome bent = loaded(alone.plan.pieces[0], materials,
+                                at_tip(alone.plan.pieces[0], 1.1 * kBreakingForce_N));
     EXPECT_TRUE(bent.settled) << overlap_m;
-    expect_snapped_at_root(bent.plan);
+    expect_broken_at_root(bent.plan);
   }
 }
 

@@ -1,4 +1,4 @@
-// A stress system that is edited break after break against one made anew.
+// Test of a stress system that is edited by break after break against one that is rebuilt.
 #include <map>
 #include <tuple>
 
@@ -13,7 +13,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Which convexes and bonds of `now` were which of `before`.
+/// Returns the indices in `before` of the convexes and bonds of `now`.
 StressOrigin origin_of(const Compound& now, const Compound& before) {
   std::map<const Convex*, std::uint32_t> convexes;
   for (std::uint32_t c = 0; c < before.convexes.size(); ++c) {
@@ -44,7 +44,7 @@ std::vector<BondGeometry> geometry_of(const Compound& compound) {
   return geometry;
 }
 
-/// The stress of every bond, and how long it took to know it from nothing.
+/// Returns the stress of every bond, and the number of iterations without a warm start.
 std::vector<BondStress> stresses(const Compound& compound, const StressSystem& system,
                                  int& iterations) {
   std::vector<Displacement> displacements;
@@ -58,7 +58,7 @@ std::vector<BondStress> stresses(const Compound& compound, const StressSystem& s
   return all;
 }
 
-TEST(StressEdit, GivesTheStressesOfASystemMadeAnewInAboutAsManyIterations) {
+TEST(StressEdit, GivesTheStressesOfARebuiltSystemInSimilarIterations) {
   constexpr int kSide = 14;
   Structure structure(grid_compound(kSide, kSide, kSide, Vec3::Ones(), true));
   Compound compound = structure.compound();
@@ -73,12 +73,12 @@ TEST(StressEdit, GivesTheStressesOfASystemMadeAnewInAboutAsManyIterations) {
     const Compound now = structure.compound();
     edited = StressSystem(edited, now, geometry_of(now), stone(), origin_of(now, compound));
     compound = now;
-    const StressSystem anew = system_of(compound, stone());
-    EXPECT_EQ(edited.work(), anew.work());
-    int iterations = 0, iterations_anew = 0;
+    const StressSystem rebuilt = system_of(compound, stone());
+    EXPECT_EQ(edited.work(), rebuilt.work());
+    int iterations = 0, iterations_rebuilt = 0;
     const std::vector<BondStress> x = stresses(compound, edited, iterations);
-    const std::vector<BondStress> y = stresses(compound, anew, iterations_anew);
-    EXPECT_LE(iterations, 1.5 * iterations_anew);
+    const std::vector<BondStress> y = stresses(compound, rebuilt, iterations_rebuilt);
+    EXPECT_LE(iterations, 1.5 * iterations_rebuilt);
     const double most = kDensity * kGravity * kSide;
     for (std::size_t i = 0; i < x.size(); ++i) {
       ASSERT_NEAR(x[i].tension_Pa, y[i].tension_Pa, 1e-5 * most);

@@ -1,4 +1,4 @@
-// Stress on bonds against the theory of beams, frames and arches.
+// Tests of the stress on bonds against the theory of beams, frames and arches.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -19,7 +19,7 @@ namespace {
 
 TEST(SpringLevel, FindsTheSpringsAtItsNodes) {
   constexpr std::uint32_t kNodes = 3000;
-  std::vector<Spring> springs(kNodes);  // a chain that hangs on the world
+  std::vector<Spring> springs(kNodes);  // A chain that hangs from the world.
   for (std::uint32_t i = 0; i < kNodes; ++i) {
     springs[i] = {i, i > 0 ? i - 1 : Spring::kWorld, Vec3(i, 0, 0), 1, Mat3::Identity()};
   }
@@ -30,15 +30,15 @@ TEST(SpringLevel, FindsTheSpringsAtItsNodes) {
                            [&](const Spring& spring) { ++seen[spring.a]; });
     for (std::uint32_t i = 0; i < kNodes; ++i) {
       ASSERT_LE(seen[i], 1) << i;
-      const bool has_an_end_there = i >= first && i <= last && first < last;
-      ASSERT_TRUE(seen[i] == 1 || !has_an_end_there) << i;
+      const bool has_end_there = i >= first && i <= last && first < last;
+      ASSERT_TRUE(seen[i] == 1 || !has_end_there) << i;
     }
     const bool any = std::count(seen.begin(), seen.end(), 1) > 0;
     ASSERT_EQ(any, first < last);
   }
 }
 
-TEST(Stress, ACantileversRootCarriesWhatBeamTheorySays) {
+TEST(Stress, ACantileversRootStressMatchesBeamTheory) {
   for (const int across : {1, 2, 4}) {
     const double length = 4, width = 0.4;
     const Compound compound = bar(length, width, 10 * across, across);
@@ -53,7 +53,7 @@ TEST(Stress, ACantileversRootCarriesWhatBeamTheorySays) {
   }
 }
 
-TEST(Stress, ABeamHeldAtBothEndsIsBentMostWhereItIsHeld) {
+TEST(Stress, ABeamFixedAtBothEndsIsBentMostAtItsEnds) {
   const double length = 6, width = 0.4;
   const Compound compound = bar(length, width, 60, 4, true);
   const double weight = kDensity * kGravity * width * width;  // N/m
@@ -61,7 +61,7 @@ TEST(Stress, ABeamHeldAtBothEndsIsBentMostWhereItIsHeld) {
   EXPECT_NEAR(worst_stress(compound).tension_Pa / expected, 1, 0.1);
 }
 
-TEST(Stress, AColumnIsOnlyPressedAndTheMoreTheLower) {
+TEST(Stress, AColumnIsUnderCompressionThatIsHighestAtItsBase) {
   const Compound compound = bar(5, 0.5, 10, 2);
   const BondStress stress = worst_stress(compound, {}, Vec3(-kGravity, 0, 0));
   const double base = kDensity * kGravity * 5;
@@ -71,8 +71,8 @@ TEST(Stress, AColumnIsOnlyPressedAndTheMoreTheLower) {
 
 // Kleinlogel, Rahmenformeln: uniform load w on the beam of a portal fixed at both feet, h its
 // height and L its span, all of one section: M = w L² / (6 (h/L + 2)) at the corners.
-TEST(Stress, APortalsCornersCarryWhatFrameTheorySays) {
-  const double span = 6, height = 4, t = 0.2;  // between centre lines
+TEST(Stress, APortalsCornerStressMatchesFrameTheory) {
+  const double span = 6, height = 4, t = 0.2;  // Measured between centre lines.
   std::vector<Part> parts;
   const int n = 4;
   const double low = -span / 2 - t / 2, high = span / 2 + t / 2, beam = height - t / 2;
@@ -100,7 +100,7 @@ TEST(Stress, APortalsCornersCarryWhatFrameTheorySays) {
 // A semicircular arch of radius R fixed at both ends, with a load P at the crown. The moment at
 // angle θ from there is M = M₀ + H R (1 − cos θ) − ½ P R sin θ; that the crown neither turns nor
 // moves sideways, ∫ M dθ = 0 and ∫ M cos θ dθ = 0, gives H = P (4 − π) / (π² − 8) and M₀.
-TEST(Stress, AnArchCarriesWhatTheElasticCentreSays) {
+TEST(Stress, AnArchsStressMatchesTheElasticCentreMethod) {
   const double radius = 4, t = 0.2, load_N = 5000;
   const int around = 96, across = 4;
   std::vector<Part> parts;
@@ -137,7 +137,7 @@ TEST(Stress, AnArchCarriesWhatTheElasticCentreSays) {
   EXPECT_NEAR(worst_stress(compound, loads, Vec3::Zero()).tension_Pa / expected, 1, 0.1);
 }
 
-/// A bar from 0 to 4 m along x in Voronoi cells, fixed by a plate at x = 0.
+/// Returns a bar from 0 to 4 m along x in Voronoi cells, fixed by a plate at x = 0.
 Compound voronoi_bar(int cells, std::uint64_t seed) {
   std::vector<Part> parts;
   add_grid(Vec3(-0.1, 0, 0), Vec3(0, 0.4, 0.4), 1, 1, 1, true, parts);
@@ -165,7 +165,7 @@ TEST(Stress, ACantileverOfVoronoiCellsIsBentAsOneOfBoxes) {
     std::vector<Displacement> displacements;
     const SolveResult solved = system.solve({}, kDown, 1e-3, 500, displacements);
     EXPECT_TRUE(solved.converged);
-    double root = 0;  // where the plate holds it
+    double root = 0;  // Stress at the plate.
     for (std::uint32_t i = 0; i < compound.bonds.size(); ++i) {
       if (system.geometry()[i].centroid_R.x() > 1e-6) continue;
       root = std::max(root, system.stress(compound, i, displacements).tension_Pa);
@@ -174,15 +174,15 @@ TEST(Stress, ACantileverOfVoronoiCellsIsBentAsOneOfBoxes) {
   }
 }
 
-TEST(Stress, WhatFallsFreelyFeelsNothing) {
+TEST(Stress, AFreelyFallingBodyHasNoStress) {
   std::vector<Part> parts;
   add_grid(Vec3::Zero(), Vec3(3, 1, 2), 6, 2, 4, false, parts);
   const BondStress stress = worst_stress(make_compound(std::move(parts)));
   EXPECT_LT(stress.tension_Pa + stress.compression_Pa + stress.shear_Pa, 1e-3);
 }
 
-// Pushed at one end and free at the other, a rod is pressed everywhere by what it has to push on.
-TEST(Stress, AFreeRodThatIsPushedFeelsWhatItsRestWeighs) {
+// A free rod that is pushed at one end is compressed everywhere by the inertia of its rest.
+TEST(Stress, APushedFreeRodIsCompressedByTheInertiaOfItsRest) {
   std::vector<Part> parts;
   add_grid(Vec3::Zero(), Vec3(4, 0.5, 0.5), 8, 1, 1, false, parts);
   const Compound compound = make_compound(std::move(parts));
@@ -198,7 +198,7 @@ TEST(Stress, AFreeRodThatIsPushedFeelsWhatItsRestWeighs) {
   }
 }
 
-TEST(Stress, AWarmStartHasNothingLeftToDo) {
+TEST(Stress, AWarmStartNeedsNoIterations) {
   const Compound compound = bar(4, 0.4, 30, 3);
   const StressSystem system = system_of(compound, stone());
   std::vector<Displacement> displacements;
@@ -206,7 +206,7 @@ TEST(Stress, AWarmStartHasNothingLeftToDo) {
   EXPECT_EQ(system.solve({}, kDown, 1e-3, 500, displacements).iterations, 0);
 }
 
-TEST(Stress, AGuessThatIsWorseThanNoneIsNone) {
+TEST(Stress, AGuessWorseThanZeroIsDiscarded) {
   const Compound compound = bar(4, 0.4, 30, 3);
   const StressSystem system = system_of(compound, stone());
   std::vector<Displacement> from_nothing;
@@ -227,10 +227,10 @@ TEST(Stress, SpreadOverManySolvesTakesNoMoreIterations) {
   const StressSystem system = system_of(compound, stone());
   std::vector<Displacement> at_once, spread;
   const int needed = system.solve({}, kDown, 1e-3, 500, at_once).iterations;
-  Nodal<double> way;
+  Nodal<double> direction;
   int taken = 0;
   for (bool converged = false; !converged && taken <= needed;) {
-    const SolveResult part = system.solve({}, kDown, 1e-3, 2, spread, Vec3::Zero(), &way);
+    const SolveResult part = system.solve({}, kDown, 1e-3, 2, spread, Vec3::Zero(), &direction);
     converged = part.converged;
     taken += part.iterations;
   }
@@ -238,7 +238,7 @@ TEST(Stress, SpreadOverManySolvesTakesNoMoreIterations) {
   EXPECT_EQ(taken, needed);
 }
 
-TEST(Stress, TakesFewIterationsHoweverManyConvexesAndHoweverFlat) {
+TEST(Stress, TakesFewIterationsForManyAndForFlatConvexes) {
   const auto iterations = [](int along, int across) {
     const Compound compound = bar(4, 0.4, along, across);
     std::vector<Displacement> displacements;
@@ -247,7 +247,7 @@ TEST(Stress, TakesFewIterationsHoweverManyConvexesAndHoweverFlat) {
   };
   EXPECT_LE(iterations(40, 4), 20);
   EXPECT_LE(iterations(126, 8), 25);
-  EXPECT_LE(iterations(20, 20), 30);  // ten times as long as thick
+  EXPECT_LE(iterations(20, 20), 30);  // The boxes are ten times as long as thick.
 }
 
 TEST(Stress, IsTheSameToTheLastBitForAnyNumberOfThreads) {

@@ -1,4 +1,4 @@
-// What a structure knows after any number of edits is what one made afresh of what is left knows.
+// Tests that a structure after any number of edits equals one rebuilt from the remaining convexes.
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
@@ -13,19 +13,19 @@ namespace {
 
 Compound heap(Random& random) { return split_islands(compound_of(random_boxes(random, 12)))[0]; }
 
-/// Contacts, islands, anchors and places of what is left, found from scratch.
+/// Expects the contacts, islands, anchors and queries of a structure rebuilt from the rest.
 void expect_as_rebuilt(const Structure& structure, Random& random) {
-  const Compound left = structure.compound();
-  ASSERT_EQ(left.convexes.size(), structure.size());
-  EXPECT_EQ(left.bonds.size(), structure.bond_count());
-  EXPECT_EQ(left.is_anchored(), structure.is_anchored());
-  const std::vector<std::uint32_t> islands = find_islands(left);
+  const Compound remaining = structure.compound();
+  ASSERT_EQ(remaining.convexes.size(), structure.size());
+  EXPECT_EQ(remaining.bonds.size(), structure.bond_count());
+  EXPECT_EQ(remaining.is_anchored(), structure.is_anchored());
+  const std::vector<std::uint32_t> islands = find_islands(remaining);
   EXPECT_EQ(std::count(islands.begin(), islands.end(), 0u), std::ssize(islands));
-  if (left.ghosts.empty()) {
-    const std::vector<Bond> fresh = find_contacts(left.convexes);
-    ASSERT_EQ(left.bonds.size(), fresh.size());
+  if (remaining.ghosts.empty()) {
+    const std::vector<Bond> fresh = find_contacts(remaining.convexes);
+    ASSERT_EQ(remaining.bonds.size(), fresh.size());
     for (std::size_t i = 0; i < fresh.size(); ++i) {
-      const Bond &x = left.bonds[i], &y = fresh[i];
+      const Bond &x = remaining.bonds[i], &y = fresh[i];
       EXPECT_EQ(std::tie(x.a, x.b, x.face_a, x.face_b), std::tie(y.a, y.b, y.face_a, y.face_b));
       EXPECT_NEAR(x.area_m2, y.area_m2, 1e-9 * y.area_m2);
     }
@@ -41,7 +41,7 @@ void expect_as_rebuilt(const Structure& structure, Random& random) {
   EXPECT_EQ(structure.within(at, radius), near);
 }
 
-TEST(Structure, knows_after_random_breaks_what_one_made_of_the_rest_would_know) {
+TEST(Structure, equals_one_rebuilt_from_the_rest_after_random_breaks) {
   int edits = 0;
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     Random random(seed, 5);
@@ -50,7 +50,7 @@ TEST(Structure, knows_after_random_breaks_what_one_made_of_the_rest_would_know) 
     const double before = volume(whole);
     Structure structure(whole);
     const Pattern pattern = voronoi_pattern(12, 2, false, seed);
-    double gone = 0;
+    double removed_m3 = 0;
     for (std::uint64_t event = 1; event <= 8 && !structure.empty(); ++event) {
       const Box box = bounds(structure);
       const Vec3 at =
@@ -61,17 +61,17 @@ TEST(Structure, knows_after_random_breaks_what_one_made_of_the_rest_would_know) 
           break_structure(structure, pattern, {radius * Mat3::Identity(), at}, {at, radius}, event);
       structure.apply(edit);
       edits += edit.changed ? 1 : 0;
-      for (const Compound& piece : edit.loose.pieces) gone += volume(piece);
-      gone += edit.loose.debris_volume_m3;
+      for (const Compound& piece : edit.loose.pieces) removed_m3 += volume(piece);
+      removed_m3 += edit.loose.debris_volume_m3;
       if (structure.empty()) break;
       expect_as_rebuilt(structure, random);
-      EXPECT_NEAR(volume(structure.compound()) + gone, before, 1e-9 * before) << seed;
+      EXPECT_NEAR(volume(structure.compound()) + removed_m3, before, 1e-9 * before) << seed;
     }
   }
   EXPECT_GT(edits, 100);
 }
 
-TEST(Structure, loses_a_contact_that_is_cut_on_both_sides) {
+TEST(Structure, removes_a_cut_contact_on_both_sides) {
   Structure structure(grid_compound(3, 1, 1, Vec3::Ones(), true));
   ASSERT_EQ(structure.bond_count(), 2u);
   BreakEdit edit;

@@ -13,7 +13,7 @@
 namespace sunder::fracture {
 namespace {
 
-/// Overlap of two faces by clipping one in space by the edge planes of the other.
+/// Returns the overlap of two faces by clipping one in space by the edge planes of the other.
 double face_overlap(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedron& b,
                     std::size_t g) {
   std::vector<Vec3> polygon;
@@ -40,7 +40,7 @@ double face_overlap(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhe
   return 0.5 * twice.norm();
 }
 
-std::string broken_solid(const BreakPlan& plan) {
+std::string find_piece_violation(const BreakPlan& plan) {
   for (const Compound& piece : plan.pieces) {
     if (piece.convexes.empty()) return "an empty piece";
     if (piece.anchored.size() != piece.convexes.size()) return "anchors do not match convexes";
@@ -90,8 +90,8 @@ MassProperties whole(const Compound& compound) {
   return sum;
 }
 
-/// Volume that is lost in the last digit of coordinates: nothing, unless a solid is tiny or thin
-/// for how far from the origin it is.
+/// Returns the volume that rounding of coordinates may change; it matters only if a solid is tiny
+/// or thin compared to its distance from the origin.
 double rounding(const Compound& compound) {
   const Box box = bounds(compound);
   const Vec3 e = box.extent();
@@ -101,14 +101,14 @@ double rounding(const Compound& compound) {
 
 }  // namespace
 
-std::string broken_truth(const Compound& parent, const BreakPlan& plan) {
+std::string find_violation(const Compound& parent, const BreakPlan& plan) {
   std::ostringstream problem;
   const double before = volume(parent), after = total_volume(plan);
   if (std::abs(after - before) > 1e-12 * before + rounding(parent)) {
     problem << "volume off by " << (after - before) / before << " of it";
     return problem.str();
   }
-  if (std::string solid = broken_solid(plan); !solid.empty()) return solid;
+  if (std::string solid = find_piece_violation(plan); !solid.empty()) return solid;
   if (plan.debris_volume_m3 == 0) {
     const MassProperties old_mass = whole(parent);
     MassProperties new_mass;
@@ -149,7 +149,7 @@ std::vector<Bond> contacts_by_distance(const Compound& compound, double toleranc
       const Plane &m = p.faces[a.face].plane, &n = q.faces[b.face].plane;
       if ((m.normal + n.normal).norm() > 1e-7 || std::abs(m.d + n.d) > tolerance) continue;
       const double area = face_overlap(p, a.face, q, b.face);
-      if (area > least_overlap(*compound.convexes[a.convex], *compound.convexes[b.convex]))
+      if (area > min_contact_area_m2(*compound.convexes[a.convex], *compound.convexes[b.convex]))
         bonds.push_back({a.convex, b.convex, a.face, b.face, area});
     }
   }

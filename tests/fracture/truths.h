@@ -1,4 +1,4 @@
-// The truths that every fracture must keep, checked from first principles.
+// Invariants of every fracture, checked from first principles.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace sunder::fracture {
 
-/// Empty if all is true of a break of `parent`; otherwise what is not.
-std::string broken_truth(const Compound& parent, const BreakPlan& plan);
+/// Returns "" if a break of `parent` keeps all invariants; otherwise the first violation.
+std::string find_violation(const Compound& parent, const BreakPlan& plan);
 
-/// The contacts of a compound by the paper's method: faces sorted by |d| of their planes, every
-/// pair of like |d| checked. Slow where many faces share |d|; an oracle.
+/// Returns the contacts of a compound by the paper's method: faces sorted by |d| of their planes,
+/// every pair of similar |d| checked. This reference for tests is slow where many faces share |d|.
 std::vector<Bond> contacts_by_distance(const Compound& compound, double tolerance);
 
 }  // namespace sunder::fracture

@@ -1,4 +1,4 @@
-// Real meshes break into pieces that keep every truth.
+// Tests that meshes from files break into pieces that keep every invariant.
 #include <cstdio>
 #include <limits>
 
@@ -32,7 +32,7 @@ BreakCommand impact(int cells, const Vec3& at, double radius_m, std::uint64_t ev
   return command;
 }
 
-TEST(RealMeshes, break_whole_and_keep_every_truth) {
+TEST(RealMeshes, keep_every_invariant_when_they_break) {
   for (const auto& file : test::meshes("good")) {
     const std::string name = file.filename().string();
     for (PolygonMesh& shell : read_repaired(file).shells) {
@@ -41,7 +41,7 @@ TEST(RealMeshes, break_whole_and_keep_every_truth) {
         const Vec3 center = bounds(solid).center();
         const BreakPlan plan =
             break_compound(solid, impact(cells, center, std::numeric_limits<double>::infinity()));
-        EXPECT_EQ(broken_visual_truth(solid, plan), "") << name << " in " << cells;
+        EXPECT_EQ(find_visual_violation(solid, plan), "") << name << " in " << cells;
         EXPECT_EQ(plan.failed, 0u) << name << " in " << cells;
         EXPECT_LT(plan.debris_volume_m3, 1e-5 * volume(solid)) << name << " in " << cells;
         EXPECT_EQ(plan.broke(), cells > 1) << name << " in " << cells;
@@ -50,7 +50,7 @@ TEST(RealMeshes, break_whole_and_keep_every_truth) {
   }
 }
 
-TEST(RealMeshes, survive_three_levels) {
+TEST(RealMeshes, keep_every_invariant_over_three_levels) {
   const RepairedMesh mesh = read_repaired(test::made_file("ball"));
   std::vector<Compound> solids{solid_of(mesh.shells[0])};
   const double whole = volume(solids[0]);
@@ -63,7 +63,7 @@ TEST(RealMeshes, survive_three_levels) {
       ++event;
       const BreakPlan plan = break_compound(
           solid, impact(8, bounds(solid).center(), std::numeric_limits<double>::infinity(), event));
-      ASSERT_EQ(broken_visual_truth(solid, plan), "") << "event " << event;
+      ASSERT_EQ(find_visual_violation(solid, plan), "") << "event " << event;
       ASSERT_EQ(plan.failed, 0u) << "event " << event;
       debris += plan.debris_volume_m3;
       next.insert(next.end(), plan.pieces.begin(), plan.pieces.end());
@@ -88,14 +88,14 @@ TEST(RealMeshes, break_where_they_are_hit_and_nowhere_else) {
   const Compound solid = decompose(read_repaired(test::made_file("ball")), options).compound;
   BreakPlan unbroken;
   unbroken.pieces = {solid};
-  EXPECT_EQ(broken_visual_truth(solid, unbroken), "");
+  EXPECT_EQ(find_visual_violation(solid, unbroken), "");
   EXPECT_GE(solid.bonds.size(), 12u);
   const Box box = bounds(solid);
   const BreakCommand command =
       impact(30, box.center() + 0.3 * box.extent(), 0.15 * box.extent().norm());
   const BreakPlan plan = break_compound(solid, command);
   ASSERT_TRUE(plan.broke());
-  EXPECT_EQ(broken_visual_truth(solid, plan), "");
+  EXPECT_EQ(find_visual_violation(solid, plan), "");
   const ImpactSphere sphere{command.X_RP.position, command.radius_m};
   std::size_t untouched = 0;
   for (const ConvexPtr& convex : solid.convexes) {

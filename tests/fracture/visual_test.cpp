@@ -1,4 +1,4 @@
-// Convexes that own a visual mesh: how it is cut with them, and what they become.
+// Tests of convexes with visual meshes: cuts, welds, bonds, corner attributes and drawn surfaces.
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@
 namespace sunder::fracture {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A mesh as a file gives it: none of its faces is a cap.
+/// Returns the mesh as a file would give it, with no face marked as a cap.
 PolygonMesh original(PolygonMesh mesh) {
   for (PolygonMesh::Face& face : mesh.faces) {
     face.id = {};
@@ -34,7 +34,7 @@ PolygonMesh box_mesh(const Vec3& min, const Vec3& max) {
 }
 
 BreakCommand impact(PatternSpec::Kind kind, int cells, const Vec3& at = Vec3::Zero(),
-                    double radius = kEndless, std::uint64_t event = 1) {
+                    double radius = kInfinity, std::uint64_t event = 1) {
   BreakCommand command;
   command.event = command.seed = event;
   command.pattern.kind = kind;
@@ -53,7 +53,7 @@ std::size_t count_internal(const BreakPlan& plan) {
   return count;
 }
 
-TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
+TEST(Visual, every_kind_of_mesh_keeps_the_invariants) {
   const PatternSpec::Kind kinds[] = {PatternSpec::Kind::kVoronoi, PatternSpec::Kind::kGrid,
                                      PatternSpec::Kind::kSlabs, PatternSpec::Kind::kWeb,
                                      PatternSpec::Kind::kBrick};
@@ -63,11 +63,11 @@ TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
   for (const PolygonMesh& mesh : meshes) {
     const Compound solid = solid_of(original(mesh));
     for (const PatternSpec::Kind kind : kinds) {
-      for (const double radius : {0.7, kEndless}) {
+      for (const double radius : {0.7, kInfinity}) {
         const int cells = kind == PatternSpec::Kind::kGrid ? 4 : 20;
         const BreakPlan plan =
             break_compound(solid, impact(kind, cells, Vec3(.1, .2, .3), radius, ++event));
-        EXPECT_EQ(broken_visual_truth(solid, plan), "")
+        EXPECT_EQ(find_visual_violation(solid, plan), "")
             << "event " << event << " of kind " << static_cast<int>(kind);
         EXPECT_EQ(plan.failed, 0u) << "event " << event;
       }
@@ -78,7 +78,7 @@ TEST(Visual, every_kind_of_mesh_keeps_the_truths) {
 TEST(Visual, cells_wholly_inside_become_internal_convexes) {
   const Compound solid = solid_of(box_mesh(Vec3::Constant(-1), Vec3::Constant(1)));
   const BreakPlan plan = break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 200));
-  EXPECT_EQ(broken_visual_truth(solid, plan), "");
+  EXPECT_EQ(find_visual_violation(solid, plan), "");
   EXPECT_GT(count_internal(plan), 10u);
   for (const Compound& piece : plan.pieces) {
     for (const ConvexPtr& convex : piece.convexes) {
@@ -94,7 +94,7 @@ TEST(Visual, cells_wholly_inside_become_internal_convexes) {
   }
 }
 
-TEST(Visual, what_lies_in_one_cell_is_of_that_cell) {
+TEST(Visual, a_convex_in_one_cell_is_assigned_to_that_cell) {
   const Pattern pattern = grid_pattern(2);
   const AlignedPattern aligned = align(pattern, {}, 1, {Vec3::Constant(-100), Vec3::Constant(100)});
   const ConvexPtr small = solid_of(box_mesh(Vec3::Constant(.1), Vec3::Constant(.4))).convexes[0];
@@ -111,27 +111,27 @@ TEST(Visual, only_internal_convexes_weld) {
   BreakCommand command = impact(PatternSpec::Kind::kGrid, 9);
   const BreakPlan first = break_compound(solid, command);
   ASSERT_GT(count_internal(first), 0u);
-  Compound whole;  // what was broken, as one compound again
+  Compound whole;  // The pieces of the first break, as one compound again.
   for (const Compound& piece : first.pieces) {
     whole.convexes.insert(whole.convexes.end(), piece.convexes.begin(), piece.convexes.end());
   }
   whole.anchored.assign(whole.convexes.size(), 0);
   whole.bonds = find_contacts(whole.convexes);
-  command = impact(PatternSpec::Kind::kVoronoi, 300, Vec3::Zero(), kEndless, 2);
+  command = impact(PatternSpec::Kind::kVoronoi, 300, Vec3::Zero(), kInfinity, 2);
   const BreakPlan second = break_compound(whole, command);
   EXPECT_GT(second.welded, 0u);
-  EXPECT_EQ(broken_visual_truth(whole, second), "");
+  EXPECT_EQ(find_visual_violation(whole, second), "");
 }
 
 TEST(Visual, legs_that_are_cut_off_are_convexes_of_their_own) {
-  const Compound comb = solid_of(original(test::comb(2)));  // a U: two legs on a bar
+  const Compound comb = solid_of(original(test::comb(2)));  // A U of two legs on a bar.
   PatternSpec slabs;
   BreakCommand command = impact(PatternSpec::Kind::kSlabs, 2);
   command.pattern.jitter = 0;
-  // Slabs lie across y; turned so that they lie across z, along the bar.
+  // Slabs lie across y; the rotation makes them lie across z, along the bar.
   command.X_RP.rotation = Quat(Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitX()));
   const BreakPlan plan = break_compound(comb, command);
-  EXPECT_EQ(broken_visual_truth(comb, plan), "");
+  EXPECT_EQ(find_visual_violation(comb, plan), "");
   ASSERT_EQ(plan.pieces.size(), 3u);
   int legs = 0;
   for (const Compound& piece : plan.pieces) {
@@ -161,7 +161,7 @@ TEST(Visual, convexes_touch_only_where_their_meshes_do) {
   };
   const auto convex_of = [&](double side, PlaneId id) {
     PolygonMesh mesh = part(side);
-    // The cap last.
+    // The cap must be the last face.
     const auto cap = std::find_if(mesh.faces.begin(), mesh.faces.end(),
                                   [](const auto& face) { return !face.id.none(); });
     const std::size_t at = static_cast<std::size_t>(cap - mesh.faces.begin());
@@ -183,7 +183,7 @@ TEST(Visual, convexes_touch_only_where_their_meshes_do) {
   EXPECT_NEAR(bonds[0].area_m2, 2 * 3 * 0.5 * 0.4 + 3 * 0.4 * 1.0, 1e-12);
 }
 
-TEST(Visual, what_holds_a_hollow_solid_together_is_shaped_as_its_caps) {
+TEST(Visual, the_bond_of_a_hollow_solid_has_the_shape_of_its_caps) {
   VacdOptions options;
   options.nodes = {Vec3(0, -0.5, 0), Vec3(0, 0.5, 0)};
   const Compound halves = decompose({{original(test::hollow_box())}, {}, true}, options).compound;
@@ -226,7 +226,7 @@ TEST(Visual, corner_attributes_are_interpolated_along_cuts) {
             const Vec3& p = visual.vertices[visual.corners[c]];
             if (f >= first_cap(visual)) {
               EXPECT_LT((visual.corner_normals[c] - face.plane.normal.cast<float>()).norm(), 1e-6);
-              const Vec2f flat = visual.corner_uvs[c];  // in metres of the rest frame
+              const Vec2f flat = visual.corner_uvs[c];  // Coordinates in metres of the rest frame.
               EXPECT_LE(std::abs(flat.x()), 1.1f);
               caps += k == face.first_contour;
               continue;
@@ -245,14 +245,14 @@ TEST(Visual, corner_attributes_are_interpolated_along_cuts) {
 
 TEST(Visual, tighter_fits_enclose_less_and_bonds_remain) {
   const Compound solid = solid_of(original(test::torus(40, 20)));
-  double before = kEndless;
+  double before = kInfinity;
   for (const Fit& fit : {Fit{Fit::Kind::kAabb}, Fit{Fit::Kind::k14Dop}, Fit{Fit::Kind::k26Dop},
                          Fit{Fit::Kind::kHull, 64}}) {
     BreakCommand command = impact(PatternSpec::Kind::kVoronoi, 40, Vec3(.7, 0, 0), 0.3);
     command.fit = fit;
     const BreakPlan plan = break_compound(solid, command);
     ASSERT_TRUE(plan.broke());
-    EXPECT_EQ(broken_visual_truth(solid, plan), "") << name_of(fit);
+    EXPECT_EQ(find_visual_violation(solid, plan), "") << name_of(fit);
     double hulls = 0;
     std::size_t bonds = 0;
     for (const Compound& piece : plan.pieces) {
@@ -287,7 +287,7 @@ double drawn_area(const Compound& piece) {
   return area;
 }
 
-TEST(Visual, what_is_drawn_is_what_shows) {
+TEST(Visual, the_drawn_surface_is_the_exposed_surface) {
   for (const PolygonMesh& mesh : {test::torus(40, 20), test::ring(), test::hollow_box()}) {
     const Compound solid = solid_of(original(mesh));
     double surface = 0;
@@ -298,14 +298,14 @@ TEST(Visual, what_is_drawn_is_what_shows) {
     ASSERT_TRUE(plan.broke());
     double drawn = 0;
     for (const Compound& piece : plan.pieces) drawn += drawn_area(piece);
-    // Both sides of each crack, and no cut that did not become one.
+    // Both sides of each crack are drawn, and no cut that did not become a crack.
     EXPECT_NEAR(drawn, surface + 2 * plan.new_area_m2, 1e-4);
   }
 }
 
-TEST(Visual, a_break_that_leaves_the_mesh_whole_gives_the_convex_back) {
+TEST(Visual, a_break_that_does_not_cut_the_mesh_returns_the_convex) {
   const Compound solid = solid_of(original(test::ring()));
-  // In the middle of the hole: cells cut the convex, but not the mesh.
+  // The impact is in the middle of the hole: cells cut the convex, but not the mesh.
   const BreakPlan plan =
       break_compound(solid, impact(PatternSpec::Kind::kVoronoi, 10, Vec3(0, .5, 0), 0.05));
   ASSERT_EQ(plan.pieces.size(), 1u);

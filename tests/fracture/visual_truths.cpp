@@ -19,7 +19,7 @@ int passes(double from_u, double from_v, double to_u, double to_v) {
   return from_v <= 0 ? (side > 0 ? 1 : 0) : (side < 0 ? -1 : 0);
 }
 
-/// Surfaces that a ray along x leaves by, less those that it enters by.
+/// Returns the number of exits of a ray along x from the mesh, minus the number of its entries.
 int winding_of(const PolygonMesh& mesh, const Vec3& point) {
   int sum = 0;
   for (std::size_t k = 0; k < mesh.contours.size(); ++k) {
@@ -35,7 +35,7 @@ int winding_of(const PolygonMesh& mesh, const Vec3& point) {
   return sum;
 }
 
-std::string broken_mesh(const Convex& convex) {
+std::string find_mesh_violation(const Convex& convex) {
   const PolygonMesh& mesh = *convex.visual;
   if (open_edges(mesh) > 0) return "a mesh that is not watertight";
   std::size_t rings = 0;
@@ -58,7 +58,7 @@ std::string broken_mesh(const Convex& convex) {
     const auto& faces = convex.polyhedron.faces;
     const bool is_shared = std::any_of(
         faces.begin(), faces.end(), [&](const auto& face) { return face.id == mesh.faces[f].id; });
-    // Nothing touches a cap as thin as rounding.
+    // A cap as thin as rounding touches no other convex.
     if (is_cap && !is_shared && face_area(mesh, f) > 1e-9 * box.extent().squaredNorm()) {
       return "a cap in no face of its convex";
     }
@@ -66,7 +66,7 @@ std::string broken_mesh(const Convex& convex) {
   return {};
 }
 
-std::string broken_cover(const Compound& parent, const BreakPlan& plan) {
+std::string find_coverage_violation(const Compound& parent, const BreakPlan& plan) {
   Random random(17);
   const Box box = bounds(parent);
   for (int i = 0; i < 40; ++i) {
@@ -97,16 +97,17 @@ int winding(std::span<const Compound> compounds, const Vec3& point) {
   return sum;
 }
 
-std::string broken_visual_truth(const Compound& parent, const BreakPlan& plan) {
-  if (std::string broken = broken_truth(parent, plan); !broken.empty()) return broken;
+std::string find_visual_violation(const Compound& parent, const BreakPlan& plan) {
+  if (std::string violation = find_violation(parent, plan); !violation.empty()) return violation;
   for (const Compound& piece : plan.pieces) {
     for (const ConvexPtr& convex : piece.convexes) {
       if (convex->is_internal()) continue;
-      if (std::string broken = broken_mesh(*convex); !broken.empty()) return broken;
+      if (std::string violation = find_mesh_violation(*convex); !violation.empty())
+        return violation;
     }
   }
-  // Debris is not there to be found.
-  return plan.debris_volume_m3 > 1e-6 * volume(parent) ? "" : broken_cover(parent, plan);
+  // Large debris has no geometry in the pieces, so coverage cannot be compared.
+  return plan.debris_volume_m3 > 1e-6 * volume(parent) ? "" : find_coverage_violation(parent, plan);
 }
 
 Compound solid_of(PolygonMesh mesh, std::uint8_t anchored) {

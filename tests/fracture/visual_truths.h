@@ -1,4 +1,4 @@
-// The truths of fracture for convexes that own visual meshes.
+// Invariants of fracture for convexes with visual meshes.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace sunder::fracture {
 
-/// Empty if all is true of a break of `parent`, its meshes included; otherwise what is not.
-std::string broken_visual_truth(const Compound& parent, const BreakPlan& plan);
+/// Returns an empty string if a break of `parent` keeps all invariants, those of its meshes
+/// included; otherwise the first violation.
+std::string find_visual_violation(const Compound& parent, const BreakPlan& plan);
 
-/// How often what the compounds hold (meshes, and polyhedra of internal convexes) is around a
-/// point.
+/// Returns the winding number of meshes, and of polyhedra of internal convexes, around a point.
 int winding(std::span<const Compound> compounds, const Vec3& point);
 
-/// One surface convex around a mesh.
+/// Returns a compound of one surface convex around a mesh.
 Compound solid_of(PolygonMesh mesh, std::uint8_t anchored = 0);
 
 }  // namespace sunder::fracture

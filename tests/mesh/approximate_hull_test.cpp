@@ -1,4 +1,4 @@
-// Approximate hulls: they enclose, they tighten, and they end at the true hull (paper 4.2).
+// Tests that approximate hulls enclose points, tighten, and converge to the hull (paper 4.2).
 #include "engine/geometry/approximate_hull.h"
 
 #include <algorithm>
@@ -63,18 +63,18 @@ TEST(ApproximateHull, MoreDirectionsAreNeverLooser) {
 
 TEST(ApproximateHull, VolumeGrowsToTheTrueHullsFromBelowAndTheFitShrinksToItFromAbove) {
   const std::vector<Vec3> points = ball_points(300, 3);
-  const double truth = volume(make_hull(points));
+  const double exact_m3 = volume(make_hull(points));
   double before = 0;
   for (const std::size_t n : {4u, 8u, 16u, 32u, 64u, 128u}) {
     const double inner = approximate_hull(points, n).volume_m3;
     EXPECT_GT(inner, before);
-    EXPECT_LE(inner, truth * (1 + 1e-12));
+    EXPECT_LE(inner, exact_m3 * (1 + 1e-12));
     before = inner;
   }
   const ApproximateHull whole = approximate_hull(points, points.size());
-  EXPECT_NEAR(whole.volume_m3 / truth, 1, 1e-10);
+  EXPECT_NEAR(whole.volume_m3 / exact_m3, 1, 1e-10);
   EXPECT_EQ(whole.vertices.size(), make_hull(points).vertices.size());
-  EXPECT_NEAR(volume(fitted_hull(points, {Fit::Kind::kHull, 300})) / truth, 1, 1e-9);
+  EXPECT_NEAR(volume(fitted_hull(points, {Fit::Kind::kHull, 300})) / exact_m3, 1, 1e-9);
 }
 
 TEST(ApproximateHull, EachVertexIsTheOneThatAddsMost) {
@@ -126,32 +126,32 @@ TEST(ApproximateHull, AClippedConvexKeepsItsOtherFacesAndTheirNames) {
   EXPECT_NEAR(volume(fitted), 1.5 * 2 * 2, 1e-12);
 }
 
-TEST(ApproximateHull, IsNeverLargerThanTheHullHoweverManyPointsLieInOnePlane) {
+TEST(ApproximateHull, IsNeverLargerThanTheHullForAnyNumberOfCoplanarPoints) {
   Random random(3);
   for (int round = 0; round < 20; ++round) {
     const Vec3 up = random.direction();
-    std::vector<Vec3> points(400);  // a ball without its cap, as cuts leave it
+    std::vector<Vec3> points(400);  // A ball without its cap, as cuts make it.
     for (Vec3& p : points) {
       p = random.direction();
       p -= std::max(0.0, up.dot(p) - 0.2) * up;
     }
-    const double truth = volume(make_hull(points));
+    const double exact_m3 = volume(make_hull(points));
     for (const std::size_t vertices : {16u, 64u, 128u}) {
-      EXPECT_LE(approximate_hull(points, vertices).volume_m3, (1 + 1e-9) * truth);
+      EXPECT_LE(approximate_hull(points, vertices).volume_m3, (1 + 1e-9) * exact_m3);
     }
   }
 }
 
-/// The real bunny has 645 vertices on its hull; the ball stands in for it.
-TEST(ApproximateHull, Figure13) {
+/// Figure 13 of the paper. The real bunny has 645 hull vertices; the ball replaces it if missing.
+TEST(ApproximateHull, IsAsTightAsFigure13) {
   const std::filesystem::path bunny = test::real_meshes_folder() / "good" / "bunny_12k.off";
   const bool is_real = std::filesystem::exists(bunny);
   const RawMesh mesh = is_real ? read_mesh(bunny) : test::make_good("ball");
-  const double truth = volume(make_hull(mesh.vertices));
+  const double exact_m3 = volume(make_hull(mesh.vertices));
   const auto ratio = [&](const Fit& fit) {
     const ConvexPolyhedron hull = fitted_hull(mesh.vertices, fit);
     expect_encloses(hull, mesh.vertices);
-    return volume(hull) / truth;
+    return volume(hull) / exact_m3;
   };
   EXPECT_LE(ratio({Fit::Kind::kHull, 6}), 1.01 * ratio({Fit::Kind::k26Dop}));
   EXPECT_LE(ratio({Fit::Kind::kHull, 20}), 1.065);

@@ -1,4 +1,4 @@
-// Boxes of a file that lie flush are one solid, with or without texture coordinates.
+// Tests that flush boxes of a file are one solid, with and without texture coordinates.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -16,7 +16,7 @@
 namespace sunder {
 namespace {
 
-/// Faces of boxes, four corners each, that share no vertex: as exporters write what is textured.
+/// Returns the faces of boxes as quads that share no vertices, as exporters write textured meshes.
 std::vector<std::array<Vec3, 4>> quads(const std::vector<Box>& boxes) {
   std::vector<std::array<Vec3, 4>> all;
   for (const Box& box : boxes) {
@@ -43,7 +43,7 @@ std::vector<std::byte> obj(const std::vector<Box>& boxes, bool textured) {
   return {begin, begin + text.size()};
 }
 
-/// A GLB of triangles.
+/// Returns a GLB file of triangles.
 std::vector<std::byte> glb(const std::vector<Box>& boxes, bool textured) {
   std::string places, uvs, indices;
   const auto put = [](std::string& to, auto value) {
@@ -88,53 +88,53 @@ std::vector<std::byte> glb(const std::vector<Box>& boxes, bool textured) {
   return {begin, begin + file.size()};
 }
 
-struct Way {
+struct Variant {
   const char* name;
   MeshFormat format;
   std::vector<std::byte> (*write)(const std::vector<Box>&, bool textured);
   bool textured;
 };
-const Way kWays[] = {{"obj", MeshFormat::kObj, obj, false},
-                     {"obj with vt", MeshFormat::kObj, obj, true},
-                     {"glTF", MeshFormat::kGltf, glb, false},
-                     {"glTF with texture coordinates", MeshFormat::kGltf, glb, true}};
+const Variant kVariants[] = {{"obj", MeshFormat::kObj, obj, false},
+                             {"obj with vt", MeshFormat::kObj, obj, true},
+                             {"glTF", MeshFormat::kGltf, glb, false},
+                             {"glTF with texture coordinates", MeshFormat::kGltf, glb, true}};
 
-/// One convex a box.
-Compound compound_of(const std::vector<Box>& boxes, const Way& way) {
-  RawMesh mesh = parse_mesh(way.write(boxes, way.textured), way.format, way.name);
+/// Returns a compound of one convex per box.
+Compound compound_of(const std::vector<Box>& boxes, const Variant& variant) {
+  RawMesh mesh = parse_mesh(variant.write(boxes, variant.textured), variant.format, variant.name);
   fracture::VacdOptions options;
   options.node_count = static_cast<std::uint32_t>(boxes.size());
-  return fracture::decompose(repair_mesh(std::move(mesh), way.name), options).compound;
+  return fracture::decompose(repair_mesh(std::move(mesh), variant.name), options).compound;
 }
 
 TEST(FlushBoxes, AreOneSolidWithTextureCoordinatesOrWithout) {
-  for (const Way& way : kWays) {
-    const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}}, way);
-    EXPECT_EQ(pair.convexes[0]->is_internal(), !way.textured) << way.name;
-    ASSERT_EQ(pair.bonds.size(), 1u) << way.name;
-    EXPECT_NEAR(pair.bonds[0].area_m2, 1, 1e-12) << way.name;
-    EXPECT_EQ(fracture::split_islands(pair).size(), 1u) << way.name;
-    EXPECT_NEAR(volume(pair), 2, 1e-12) << way.name;
+  for (const Variant& variant : kVariants) {
+    const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}}, variant);
+    EXPECT_EQ(pair.convexes[0]->is_internal(), !variant.textured) << variant.name;
+    ASSERT_EQ(pair.bonds.size(), 1u) << variant.name;
+    EXPECT_NEAR(pair.bonds[0].area_m2, 1, 1e-12) << variant.name;
+    EXPECT_EQ(fracture::split_islands(pair).size(), 1u) << variant.name;
+    EXPECT_NEAR(volume(pair), 2, 1e-12) << variant.name;
   }
 }
 
 TEST(FlushBoxes, TouchWhereTheyOverlap) {
-  for (const Way& way : kWays) {
-    // A slab on two piers; the right one stands out by half of its width.
+  for (const Variant& variant : kVariants) {
+    // A slab on two piers; half of the right one's width is beside the slab.
     const Compound portal = compound_of({{{0, 0, 0}, {0.5, 2, 1}},
                                          {{2.75, 0, 0}, {3.25, 2, 1}},
                                          {{0, 2, 0}, {3, 2.25, 1}},
                                          {{5, 0, 0}, {6, 1, 1}}},
-                                        way);
-    ASSERT_EQ(portal.bonds.size(), 2u) << way.name;
-    EXPECT_NEAR(portal.bonds[0].area_m2, 0.5, 1e-12) << way.name;
-    EXPECT_NEAR(portal.bonds[1].area_m2, 0.25, 1e-12) << way.name;
-    EXPECT_EQ(fracture::split_islands(portal).size(), 2u) << way.name << ": one stands apart";
+                                        variant);
+    ASSERT_EQ(portal.bonds.size(), 2u) << variant.name;
+    EXPECT_NEAR(portal.bonds[0].area_m2, 0.5, 1e-12) << variant.name;
+    EXPECT_NEAR(portal.bonds[1].area_m2, 0.25, 1e-12) << variant.name;
+    EXPECT_EQ(fracture::split_islands(portal).size(), 2u) << variant.name << ": one stands apart";
   }
 }
 
-TEST(FlushBoxes, OnlyWhatIsCoveredLooksBrokenInside) {
-  const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 2, 1}}}, kWays[3]);
+TEST(FlushBoxes, OnlyCoveredFacesBecomeInterior) {
+  const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 2, 1}}}, kVariants[3]);
   std::vector<std::size_t> inner;
   for (const ConvexPtr& convex : pair.convexes) {
     inner.push_back(0);
@@ -147,21 +147,21 @@ TEST(FlushBoxes, OnlyWhatIsCoveredLooksBrokenInside) {
   EXPECT_EQ(inner, (std::vector<std::size_t>{1, 0}));
 }
 
-TEST(FlushBoxes, HoldOnToEachOtherAfterABreakBesideThem) {
+TEST(FlushBoxes, StayBondedAfterABreakBesideThem) {
   BreakCommand command;
   command.event = command.seed = 1;
   command.pattern.kind = PatternSpec::Kind::kVoronoi;
   command.pattern.cells = 40;
   command.X_RP.position = Vec3(2, 2, 0.5);
   command.radius_m = 0.6;
-  for (const Way& way : kWays) {
-    const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 2, 1}}}, way);
+  for (const Variant& variant : kVariants) {
+    const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 2, 1}}}, variant);
     const BreakPlan plan = fracture::break_compound(pair, command);
-    ASSERT_GT(plan.pieces.size(), 1u) << way.name;
-    EXPECT_EQ(plan.failed, 0u) << way.name;
+    ASSERT_GT(plan.pieces.size(), 1u) << variant.name;
+    EXPECT_EQ(plan.failed, 0u) << variant.name;
     double sum = plan.debris_volume_m3, held_m2 = 0;
     for (const Compound& piece : plan.pieces) sum += volume(piece);
-    EXPECT_NEAR(sum, 3, 1e-9) << way.name;
+    EXPECT_NEAR(sum, 3, 1e-9) << variant.name;
     for (const Bond& bond : plan.pieces[0].bonds) {
       const Compound& rest = plan.pieces[0];
       const Box a = rest.convexes[bond.a]->box, b = rest.convexes[bond.b]->box;
@@ -169,7 +169,7 @@ TEST(FlushBoxes, HoldOnToEachOtherAfterABreakBesideThem) {
           std::abs(a.max.x() - b.min.x()) < 1e-9 || std::abs(b.max.x() - a.min.x()) < 1e-9;
       if (across && std::abs(std::min(a.max.x(), b.max.x()) - 1) < 1e-9) held_m2 += bond.area_m2;
     }
-    EXPECT_NEAR(held_m2, 1, 1e-9) << way.name;
+    EXPECT_NEAR(held_m2, 1, 1e-9) << variant.name;
   }
 }
 

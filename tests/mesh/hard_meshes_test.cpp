@@ -1,4 +1,4 @@
-// Meshes of every kind of damage become pieces of positive volume, or are refused in one line.
+// Tests that meshes with any defect break into pieces of positive volume, or are refused.
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
@@ -14,8 +14,8 @@ namespace {
 
 using fracture::Vacd;
 
-/// Breaks all of a compound; at least one of its parts that hang together.
-BreakPlan broken(const Compound& compound, PatternSpec::Kind kind, int cells) {
+/// Breaks a compound by a pattern of unlimited radius about its centre.
+BreakPlan break_all(const Compound& compound, PatternSpec::Kind kind, int cells) {
   BreakCommand command;
   command.event = command.seed = 1;
   command.pattern.kind = kind;
@@ -42,7 +42,7 @@ void expect_solids(const RawMesh& mesh, const std::string& name) {
   using Kind = PatternSpec::Kind;
   for (const auto& [kind, cells] :
        {std::pair{Kind::kVoronoi, 20}, std::pair{Kind::kSlabs, 6}, std::pair{Kind::kGrid, 3}}) {
-    const BreakPlan plan = broken(vacd.compound, kind, cells);
+    const BreakPlan plan = break_all(vacd.compound, kind, cells);
     const fracture::Audit audit = fracture::audit(plan.pieces);
     EXPECT_EQ(audit.negative_volumes, 0u) << name;
     EXPECT_EQ(audit.open_edges, 0u) << name;

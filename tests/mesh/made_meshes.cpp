@@ -10,14 +10,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A ball of `around` vertices about its axis; `radius` by the angles from and about it.
+/// Makes a ball of `around` vertices about its axis; `radius` is a function of the polar angle and
+/// the angle about the axis.
 RawMesh ball(std::uint32_t around, const std::function<double(double, double)>& radius) {
   RawMesh mesh;
   const std::uint32_t rings = around / 2;
   const auto point = [&](double ring, double turn) {
-    const Vec3 way(std::sin(ring) * std::cos(turn), std::cos(ring),
-                   -std::sin(ring) * std::sin(turn));
-    mesh.vertices.push_back(radius(ring, turn) * way);
+    const Vec3 direction(std::sin(ring) * std::cos(turn), std::cos(ring),
+                         -std::sin(ring) * std::sin(turn));
+    mesh.vertices.push_back(radius(ring, turn) * direction);
   };
   point(0, 0);
   for (std::uint32_t r = 1; r < rings; ++r)
@@ -36,7 +37,7 @@ RawMesh ball(std::uint32_t around, const std::function<double(double, double)>& 
   return mesh;
 }
 
-/// A closed tube about a path, which is nowhere upright.
+/// Makes a closed tube about a path whose tangent is nowhere vertical.
 RawMesh tube(std::uint32_t along, std::uint32_t around, const std::function<Vec3(double)>& path,
              const std::function<double(double, double)>& radius) {
   RawMesh mesh;
@@ -60,7 +61,7 @@ RawMesh tube(std::uint32_t along, std::uint32_t around, const std::function<Vec3
   return mesh;
 }
 
-/// An outline in xz, counter-clockwise seen from above, swept along y.
+/// Makes a prism from an outline in xz, counter-clockwise from above, along y.
 RawMesh prism(const std::vector<Vec2>& outline, double height) {
   RawMesh mesh;
   const auto n = static_cast<std::uint32_t>(outline.size());
@@ -158,10 +159,10 @@ RawMesh make_frame() {
   }
   for (std::uint32_t i = 0; i < 4; ++i) {
     const std::uint32_t k = (i + 1) % 4;
-    add(mesh, {k, i, 4 + i, 4 + k});            // below
-    add(mesh, {8 + i, 8 + k, 12 + k, 12 + i});  // above
-    add(mesh, {i, k, 8 + k, 8 + i});            // outside
-    add(mesh, {4 + k, 4 + i, 12 + i, 12 + k});  // inside
+    add(mesh, {k, i, 4 + i, 4 + k});            // Bottom.
+    add(mesh, {8 + i, 8 + k, 12 + k, 12 + i});  // Top.
+    add(mesh, {i, k, 8 + k, 8 + i});            // Outer side.
+    add(mesh, {4 + k, 4 + i, 12 + i, 12 + k});  // Inner side.
   }
   return mesh;
 }

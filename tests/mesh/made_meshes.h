@@ -1,4 +1,4 @@
-// Closed meshes that the tests make themselves, by formula.
+// Test fixture: closed meshes made by formula.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace sunder::test {
 
-/// Names of closed meshes that need no repair; make_good() makes each.
+/// Returns the names of closed meshes that need no repair; make_good() makes each of them.
 std::vector<std::string> good_names();
-/// Throws std::out_of_range for a name that good_names() does not have.
+/// Makes the mesh of a name. Throws std::out_of_range for a name that good_names() does not have.
 RawMesh make_good(const std::string& name);
 
-/// A ball with waves, of `around` vertices about its axis.
+/// Makes a ball with waves, of `around` vertices about its axis.
 RawMesh make_ball(std::uint32_t around);
-/// A ring of uneven thickness, of `along` vertices.
+/// Makes a ring of uneven thickness, of `along` vertices.
 RawMesh make_ring(std::uint32_t along);
-/// A prism over a star.
+/// Makes a prism over a star.
 RawMesh make_star(std::uint32_t points, double inner_radius);
-/// A square plate with a square hole, of quads.
+/// Makes a square plate with a square hole, of quads.
 RawMesh make_frame();
-/// A box, or half of one, with its lower corner at `low`.
+/// Makes a box, or half of one, with its lower corner at `low`.
 RawMesh make_block(const Vec3& low, const Vec3& high, bool is_wedge);
 
-using Polygon = std::vector<std::uint32_t>;  ///< Vertices of a RawMesh.
+using Polygon = std::vector<std::uint32_t>;  ///< Vertex indices of a RawMesh.
 void add(RawMesh& mesh, const Polygon& corners);
 std::vector<Polygon> polygons_of(const RawMesh& mesh);
 void append(RawMesh& mesh, const RawMesh& other);

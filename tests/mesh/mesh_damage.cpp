@@ -9,13 +9,13 @@
 namespace sunder::test {
 namespace {
 
-Polygon turned(Polygon corners) {
+Polygon reversed(Polygon corners) {
   std::ranges::reverse(corners);
   return corners;
 }
 
-/// The same vertices with other polygons.
-RawMesh with(const RawMesh& mesh, const std::vector<Polygon>& polygons) {
+/// Returns a mesh with the vertices of `mesh` and other polygons.
+RawMesh with_polygons(const RawMesh& mesh, const std::vector<Polygon>& polygons) {
   RawMesh result;
   result.vertices = mesh.vertices;
   for (const Polygon& corners : polygons) add(result, corners);
@@ -28,7 +28,7 @@ Vec3 middle(const RawMesh& mesh) {
   return box.center();
 }
 
-/// A copy, each vertex moved towards a point.
+/// Returns a copy scaled towards a point.
 RawMesh shrunk(RawMesh mesh, const Vec3& towards, double scale) {
   for (Vec3& vertex : mesh.vertices) vertex = towards + scale * (vertex - towards);
   return mesh;
@@ -46,7 +46,7 @@ RawMesh unjoined(const RawMesh& mesh, double nudge_m, Random& random) {
   return result;
 }
 
-/// The middles of some edges become vertices of one of the two polygons there.
+/// Makes midpoints of some edges corners of one of the two polygons at the edge.
 RawMesh with_t_junctions(const RawMesh& mesh, Random& random) {
   std::vector<Polygon> all = polygons_of(mesh);
   RawMesh result = mesh;
@@ -59,7 +59,7 @@ RawMesh with_t_junctions(const RawMesh& mesh, Random& random) {
     corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(edge) + 1,
                    static_cast<std::uint32_t>(result.vertices.size() - 1));
   }
-  return with(result, all);
+  return with_polygons(result, all);
 }
 
 RawMesh with_fans(RawMesh mesh, Random& random) {
@@ -107,21 +107,21 @@ RawMesh damaged(const RawMesh& mesh, Damage damage, std::uint64_t seed) {
         if (some()) add(result, corners);
       return result;
     case Damage::kDoubled:
-      for (const Polygon& corners : all) add(result, turned(corners));
+      for (const Polygon& corners : all) add(result, reversed(corners));
       return result;
     case Damage::kPartlyDoubled:
       for (const Polygon& corners : all)
-        if (some()) add(result, turned(corners));
+        if (some()) add(result, reversed(corners));
       return result;
     case Damage::kTJunctions:
       return with_t_junctions(mesh, random);
     case Damage::kFlipped:
       for (Polygon& corners : all)
-        if (some()) corners = turned(corners);
-      return with(mesh, all);
+        if (some()) corners = reversed(corners);
+      return with_polygons(mesh, all);
     case Damage::kInsideOut:
-      for (Polygon& corners : all) corners = turned(corners);
-      return with(mesh, all);
+      for (Polygon& corners : all) corners = reversed(corners);
+      return with_polygons(mesh, all);
     case Damage::kFans:
       return with_fans(mesh, random);
     case Damage::kTouching:
@@ -138,17 +138,17 @@ RawMesh damaged(const RawMesh& mesh, Damage damage, std::uint64_t seed) {
       return result;
     case Damage::kHole:
       all.erase(all.begin() + random.below(static_cast<std::uint32_t>(all.size())));
-      return with(mesh, all);
+      return with_polygons(mesh, all);
     case Damage::kWideHole: {
       const std::uint32_t vertex =
           mesh.corners[random.below(static_cast<std::uint32_t>(mesh.corners.size()))];
       std::erase_if(
           all, [&](const Polygon& corners) { return std::ranges::count(corners, vertex) > 0; });
-      return with(mesh, all);
+      return with_polygons(mesh, all);
     }
     case Damage::kTorn:
       std::erase_if(all, [&](const Polygon&) { return random.below(3) == 0; });
-      return with(mesh, all);
+      return with_polygons(mesh, all);
     case Damage::kOverlapping: {
       RawMesh copy = mesh;
       for (Vec3& vertex : copy.vertices) vertex += Vec3(0.4, 0.1, 0.05);

@@ -1,4 +1,4 @@
-// Meshes damaged in the ways that repairs know.
+// Test fixture: meshes with every defect that repairs handle.
 #pragma once
 
 #include <cstdint>
@@ -7,35 +7,35 @@
 
 namespace sunder::test {
 
-/// Ways in which meshes come damaged.
+/// Defects of meshes.
 enum class Damage : std::uint8_t {
-  kUnjoined,       ///< Each polygon has vertices of its own.
-  kNudged,         ///< Likewise, and not quite in the same places.
+  kUnjoined,       ///< Each polygon has its own vertices.
+  kNudged,         ///< Each polygon has its own vertices, displaced by a tiny distance.
   kDegenerate,     ///< Polygons without area are added.
-  kDuplicated,     ///< Some polygons are there twice.
-  kDoubled,        ///< All polygons are there a second time, turned round.
-  kPartlyDoubled,  ///< Some polygons are there a second time, turned round.
-  kTJunctions,     ///< Vertices lie on edges of polygons that do not have them.
-  kFlipped,        ///< Some polygons are turned round.
-  kInsideOut,      ///< All polygons are turned round.
-  kFans,           ///< More polygons hang on some edges.
-  kTouching,       ///< A smaller copy touches in a vertex.
+  kDuplicated,     ///< Some polygons occur twice.
+  kDoubled,        ///< All polygons occur a second time, reversed.
+  kPartlyDoubled,  ///< Some polygons occur a second time, reversed.
+  kTJunctions,     ///< Vertices lie on edges of polygons that do not have them as corners.
+  kFlipped,        ///< Some polygons are reversed.
+  kInsideOut,      ///< All polygons are reversed.
+  kFans,           ///< Some edges have additional polygons.
+  kTouching,       ///< A smaller copy touches the mesh in a vertex.
   kNested,         ///< A smaller copy inside shares a polygon.
-  kCavity,         ///< A smaller copy inside is turned round.
+  kCavity,         ///< A smaller copy inside is reversed.
   kHole,           ///< A polygon is missing.
   kWideHole,       ///< Polygons around a vertex are missing.
   kTorn,           ///< A third of all polygons is missing.
-  kOverlapping,    ///< A copy is moved by less than the size.
-  kTangled,        ///< Vertices are moved so far that the surface passes through itself.
+  kOverlapping,    ///< A copy is displaced by less than the size.
+  kTangled,        ///< Vertices are displaced so far that the surface intersects itself.
 };
 inline constexpr int kDamages = static_cast<int>(Damage::kTangled) + 1;
 const char* name_of(Damage damage);
 RawMesh damaged(const RawMesh& mesh, Damage damage, std::uint64_t seed);
 
-/// Blocks, wedges and plates with corners on a coarse lattice, so that faces, edges and vertices of
-/// different ones coincide; some are open, doubled, turned round or given twice.
+/// Makes blocks, wedges and plates with corners on a coarse lattice, so that their faces, edges and
+/// vertices coincide; some are open, doubled, reversed or duplicated.
 RawMesh make_lattice_mesh(std::uint64_t seed);
-/// A lattice mesh, or a small closed one with up to three kinds of damage.
+/// Makes a lattice mesh, or a small closed mesh with up to three defects.
 RawMesh make_hard_mesh(std::uint64_t seed);
 
 }  // namespace sunder::test

@@ -1,4 +1,4 @@
-// The made meshes as files, and real ones where they lie beside the project.
+// Test fixture: the made meshes as files, and real ones if they exist beside the project.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@ namespace sunder::test {
 
 /// Writes an OBJ file.
 void write_obj(const std::filesystem::path& file, const RawMesh& mesh);
-/// A folder with `good/` and `nasty/`, as long as the program runs.
+/// Returns a folder with `good/` and `nasty/` that exists until the program ends.
 const std::filesystem::path& made_folder();
-/// The file of a good mesh that was made.
+/// Returns the file of a good mesh in the made folder.
 std::filesystem::path made_file(const std::string& name);
-/// SUNDER_MESHES, or the folder that lies beside the sources; may not exist.
+/// Returns SUNDER_MESHES, or the folder beside the sources; the folder may not exist.
 std::filesystem::path real_meshes_folder();
-/// The files of a set ("good" or "nasty"): made ones, then real ones if there are any, in order.
+/// Returns the files of a set ("good" or "nasty"), sorted: made ones, then real ones if they exist.
 std::vector<std::filesystem::path> meshes(const std::string& set);
 
 }  // namespace sunder::test

@@ -1,4 +1,4 @@
-// What is exported: triangles of faces with holes, and files that other programs can read.
+// Tests of exports: triangulation of faces with holes, and GLB and OBJ files.
 #include <filesystem>
 #include <fstream>
 
@@ -31,7 +31,7 @@ class Folder {
   fs::path path_;
 };
 
-/// One face in the plane z = 0 of contours, the first counter-clockwise, holes clockwise.
+/// Returns one face in z = 0; its first contour is counter-clockwise, holes are clockwise.
 PolygonMesh flat(const std::vector<std::vector<Vec2>>& contours) {
   PolygonMesh mesh;
   for (const auto& contour : contours) {
@@ -48,8 +48,8 @@ PolygonMesh flat(const std::vector<std::vector<Vec2>>& contours) {
   return mesh;
 }
 
-/// The area of all triangles; less than zero if one of them is turned over.
-double covered(const PolygonMesh& mesh) {
+/// Returns the area of all triangles, or −1 if a triangle is reversed.
+double covered_area(const PolygonMesh& mesh) {
   double sum = 0;
   for (const Triangle& t : triangulate(mesh, 0)) {
     const Vec3 &a = mesh.vertices[mesh.corners[t[0]]], &b = mesh.vertices[mesh.corners[t[1]]],
@@ -64,22 +64,23 @@ double covered(const PolygonMesh& mesh) {
 const std::vector<Vec2> kSquare = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
 
 TEST(TriangulateFace, CoversAFaceThatIsNotConvex) {
-  EXPECT_NEAR(covered(flat({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {4, 3}, {4, 4}, {0, 4}}})), 10,
-              1e-12);
+  EXPECT_NEAR(
+      covered_area(flat({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {4, 3}, {4, 4}, {0, 4}}})), 10,
+      1e-12);
 }
 
 TEST(TriangulateFace, LeavesHolesOut) {
   const std::vector<Vec2> low = {{1, 1}, {1, 2}, {2, 2}, {2, 1}};
   const std::vector<Vec2> high = {{2.5, 2.5}, {2.5, 3.5}, {3.5, 3.5}, {3.5, 2.5}};
-  EXPECT_NEAR(covered(flat({kSquare, low})), 15, 1e-12);
-  EXPECT_NEAR(covered(flat({kSquare, low, high})), 14, 1e-12);
+  EXPECT_NEAR(covered_area(flat({kSquare, low})), 15, 1e-12);
+  EXPECT_NEAR(covered_area(flat({kSquare, low, high})), 14, 1e-12);
   EXPECT_EQ(triangulate(flat({kSquare, low, high}), 0).size(), 4 + 4 + 4 - 2 + 2 * 2u);
 }
 
 TEST(TriangulateFace, CoversAnIslandInAHole) {
   const std::vector<Vec2> hole = {{1, 1}, {1, 3}, {3, 3}, {3, 1}};
   const std::vector<Vec2> island = {{1.5, 1.5}, {2.5, 1.5}, {2.5, 2.5}, {1.5, 2.5}};
-  EXPECT_NEAR(covered(flat({kSquare, hole, island})), 16 - 4 + 1, 1e-12);
+  EXPECT_NEAR(covered_area(flat({kSquare, hole, island})), 16 - 4 + 1, 1e-12);
 }
 
 TEST(TriangulateFace, EveryEdgeOfTheContoursIsAnEdgeOfOneTriangle) {
@@ -97,7 +98,7 @@ TEST(TriangulateFace, EveryEdgeOfTheContoursIsAnEdgeOfOneTriangle) {
   }
 }
 
-/// Two boxes, the second with a surface that is broken on one side.
+/// Returns two boxes, the second with one interior face.
 std::vector<Compound> two_pieces() {
   std::vector<Compound> pieces;
   for (const double x : {0.0, 1.0}) {
@@ -114,7 +115,7 @@ std::vector<Material> stone() {
   return {material};
 }
 
-double enclosed(const RepairedMesh& mesh) {
+double enclosed_volume(const RepairedMesh& mesh) {
   double sum = 0;
   for (const PolygonMesh& shell : mesh.shells) sum += mass_properties(shell).volume_m3;
   return sum;
@@ -141,11 +142,11 @@ TEST(Glb, MovesPiecesApartWhenExploded) {
   write_glb(folder / "x.glb", make_model(two_pieces(), stone(), 2));
   const RepairedMesh mesh = repair_mesh(read_mesh(folder / "x.glb"), "x", {});
   ASSERT_EQ(mesh.shells.size(), 2u);
-  EXPECT_NEAR(enclosed(mesh), 12, 1e-5);
+  EXPECT_NEAR(enclosed_volume(mesh), 12, 1e-5);
   EXPECT_NEAR(bounds(mesh.shells[1]).min.x() - bounds(mesh.shells[0]).max.x(), 2, 1e-6);
 }
 
-TEST(Glb, KeepsTheRulesOfTheFormat) {
+TEST(Glb, FollowsTheRulesOfTheFormat) {
   const Folder folder;
   write_glb(folder / "x.glb", make_model(two_pieces(), stone(), 0));
   const std::vector<std::byte> bytes = read_file(folder / "x.glb");
@@ -182,7 +183,7 @@ EncodedImage bytes_of(const std::string& text) {
   return std::make_shared<const std::vector<std::byte>>(begin, begin + text.size());
 }
 
-TEST(Glb, KeepsPaintsTheirPicturesAndWhereTheyLie) {
+TEST(Glb, KeepsAppearancesWithTheirTexturesAndCoordinates) {
   const EncodedImage png = bytes_of("\x89PNG5"), jpeg = bytes_of("\xff\xd8\xff"),
                      other = bytes_of("N");
   const std::vector<Appearance> paints = {
@@ -240,7 +241,7 @@ TEST(Glb, KeepsPaintsTheirPicturesAndWhereTheyLie) {
   EXPECT_NE(text.find("image/jpeg"), std::string::npos);
 }
 
-TEST(ObjFolder, KeepsTheColorsOfPaints) {
+TEST(ObjFolder, KeepsTheColorsOfAppearances) {
   std::vector<Compound> pieces = two_pieces();
   const auto convex = std::make_shared<Convex>(*pieces[0].convexes[0]);
   PolygonMesh mesh = polygon_mesh(convex->polyhedron);
@@ -270,7 +271,7 @@ TEST(ObjFolder, HoldsEveryPieceInFullPrecision) {
   EXPECT_TRUE(fs::exists(folder / "out/materials.mtl"));
   const RepairedMesh mesh = repair_mesh(read_mesh(folder / "out/piece_2.obj"), "x", {false});
   ASSERT_EQ(mesh.shells.size(), 1u);
-  EXPECT_NEAR(enclosed(mesh), 1. / 21, 1e-15);
+  EXPECT_NEAR(enclosed_volume(mesh), 1. / 21, 1e-15);
 }
 
 TEST(ObjFolder, ReplacesAnEarlierExportAndNothingElse) {

@@ -1,4 +1,4 @@
-// Outer surfaces of pieces: faces that convexes share are gone, and every edge lies in two faces.
+// Tests that outer surfaces of pieces omit shared faces, and that every edge has two faces.
 #include "engine/geometry/walls/outer_surface.h"
 
 #include <cmath>
@@ -14,8 +14,8 @@
 namespace sunder {
 namespace {
 
-/// The surfaces of boxes whose faces in the plane x = 1 are named as the sides of one cut.
-PolygonMesh box_at_wall(const Vec3& min, const Vec3& max) {
+/// Returns the surface of a box whose faces in the plane x = 1 have the ids of one cut's sides.
+PolygonMesh box_at_cut(const Vec3& min, const Vec3& max) {
   PolygonMesh mesh = polygon_mesh(make_box(min, max));
   for (PolygonMesh::Face& face : mesh.faces) {
     face.id = {};
@@ -41,22 +41,25 @@ void expect_outer(const PolygonMesh& a, const PolygonMesh& b, double volume_m3, 
   EXPECT_NEAR(area(outer->mesh), area_m2, 1e-12);
 }
 
-TEST(OuterSurface, OfBoxesWithOneWallHasNoWall) {
-  expect_outer(box_at_wall({0, 0, 0}, {1, 1, 1}), box_at_wall({1, 0, 0}, {2, 1, 1}), 2, 10);
+TEST(OuterSurface, OfBoxesWithASharedFaceOmitsTheFace) {
+  expect_outer(box_at_cut({0, 0, 0}, {1, 1, 1}), box_at_cut({1, 0, 0}, {2, 1, 1}), 2, 10);
 }
 
 TEST(OuterSurface, OfABoxOnPartOfAFaceKeepsTheRestOfIt) {
-  const PolygonMesh wall = box_at_wall({0, 0, 0}, {1, 1, 1});
-  expect_outer(wall, box_at_wall({1, 0.25, 0.25}, {2, 0.75, 0.75}), 1.25, 6 + 2);   // inside
-  expect_outer(wall, box_at_wall({1, 0, 0.25}, {2, 0.5, 0.75}), 1.25, 6 + 2);       // at an edge
-  expect_outer(wall, box_at_wall({1, 0.5, 0.5}, {2, 1.5, 1.5}), 2, 12 - 2 * 0.25);  // crossing
-  expect_outer(wall, box_at_wall({1, -0.5, 0.25}, {2, 1.5, 0.5}), 1.5,
-               6 + 5.5 - 2 * .25);  // across
+  const PolygonMesh wall = box_at_cut({0, 0, 0}, {1, 1, 1});
+  // The box is inside the face.
+  expect_outer(wall, box_at_cut({1, 0.25, 0.25}, {2, 0.75, 0.75}), 1.25, 6 + 2);
+  // The box is at an edge.
+  expect_outer(wall, box_at_cut({1, 0, 0.25}, {2, 0.5, 0.75}), 1.25, 6 + 2);
+  // The box crosses an edge.
+  expect_outer(wall, box_at_cut({1, 0.5, 0.5}, {2, 1.5, 1.5}), 2, 12 - 2 * 0.25);
+  expect_outer(wall, box_at_cut({1, -0.5, 0.25}, {2, 1.5, 0.5}), 1.5,
+               6 + 5.5 - 2 * .25);  // The box crosses the whole face.
 }
 
-TEST(OuterSurface, OfBoxesThatTouchInAnEdgeDividesItForEachOfThem) {
-  const PolygonMesh a = box_at_wall({0, 0, 0}, {1, 1, 1});
-  const PolygonMesh b = box_at_wall({1, 1, 0}, {2, 2, 1});
+TEST(OuterSurface, OfBoxesThatTouchInAnEdgeHasTheEdgeOncePerBox) {
+  const PolygonMesh a = box_at_cut({0, 0, 0}, {1, 1, 1});
+  const PolygonMesh b = box_at_cut({1, 1, 0}, {2, 2, 1});
   const PolygonMesh* const both[] = {&a, &b};
   const std::optional<OuterSurface> outer = outer_surface(both);
   ASSERT_TRUE(outer);
@@ -68,11 +71,11 @@ TEST(OuterSurface, OfBoxesThatTouchInAnEdgeDividesItForEachOfThem) {
   EXPECT_EQ(places.size(), 16u) << "in a place of its own";
 }
 
-TEST(OuterSurface, OfAMeshThatIsOpenIsNone) {
-  PolygonMesh a = box_at_wall({0, 0, 0}, {1, 1, 1});
+TEST(OuterSurface, OfAnOpenMeshIsEmpty) {
+  PolygonMesh a = box_at_cut({0, 0, 0}, {1, 1, 1});
   a.contours.pop_back();
   a.faces.pop_back();
-  const PolygonMesh b = box_at_wall({1, 0, 0}, {2, 1, 1});
+  const PolygonMesh b = box_at_cut({1, 0, 0}, {2, 1, 1});
   const PolygonMesh* const both[] = {&a, &b};
   EXPECT_FALSE(outer_surface(both));
 }

@@ -1,4 +1,4 @@
-// What files say that surfaces look like: MTL beside OBJ, and the materials of glTF.
+// Tests of appearances from files: MTL with OBJ, and materials of glTF.
 #include <filesystem>
 #include <fstream>
 
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Paints : public testing::Test {
+class Appearances : public testing::Test {
  protected:
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "sunder-paints-XXXXXX").string();
@@ -46,7 +46,7 @@ std::string text_of(const EncodedImage& picture) {
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-TEST_F(Paints, OfAnObjAreThoseOfTheMtlBesideIt) {
+TEST_F(Appearances, OfAnObjAreReadFromItsMtl) {
   write("a.mtl",
         "newmtl red clay\nKa 1 1 1\nKd 1 0.5 0\n"
         "newmtl brick\nKd 0 0 0\nmap_Kd -s 2 2 1 -clamp on pictures\\wall one.png\n"
@@ -76,7 +76,7 @@ TEST_F(Paints, OfAnObjAreThoseOfTheMtlBesideIt) {
   EXPECT_FALSE(paint(3));
 }
 
-TEST_F(Paints, WhatIsMissingOrElsewhereIsLeftOut) {
+TEST_F(Appearances, FilesMissingOrOutsideTheFolderAreIgnored) {
   std::ofstream(outside_ / "secret.png") << "PNG!";
   std::ofstream(outside_ / "secret.mtl") << "newmtl m\nKd 1 1 1\n";
   write("a.mtl", "newmtl m\nmap_Kd ../secret.png\nnewmtl n\nmap_Kd none.png\n");
@@ -91,13 +91,13 @@ TEST_F(Paints, WhatIsMissingOrElsewhereIsLeftOut) {
   }
 }
 
-TEST_F(Paints, AFaultOfAnMtlIsNamedWithItsLine) {
+TEST_F(Appearances, AnErrorInAnMtlNamesItsLine) {
   write("a.mtl", "newmtl m\nKd 1 red 0\n");
   write("a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl m\nf 1 2 3\n");
   expect_refused("a.obj", "a.mtl:2: 'red' is not a number");
 }
 
-TEST_F(Paints, OfAnMtlHaveReliefFromNormalsOrElseFromHeights) {
+TEST_F(Appearances, OfAnMtlHaveANormalMapOrElseABumpMap) {
   write("a.mtl",
         "newmtl both\nnorm normals.png\nmap_Bump heights.png\n"
         "newmtl either\nmap_bump -s 2 2 1 -bm 0.25 heights.png\nnorm -bm 3 pictures\\n 2.png\n"
@@ -128,7 +128,7 @@ TEST_F(Paints, OfAnMtlHaveReliefFromNormalsOrElseFromHeights) {
   expect_refused("a.obj", "a.mtl:2: 'steep' is not a number");
 }
 
-TEST_F(Paints, OfAnMtlHaveItsRoughnessOrOneOfItsExponent) {
+TEST_F(Appearances, OfAnMtlHaveItsRoughnessOrOneFromItsExponent) {
   write("a.mtl",
         "newmtl said\nNs 1000\nPr 0.25\nPm 1\n"
         "newmtl exponent\nKs 0.5 0.5 0.5\nNs 30\n"
@@ -155,7 +155,7 @@ TEST_F(Paints, OfAnMtlHaveItsRoughnessOrOneOfItsExponent) {
   expect_refused("a.obj", "a.mtl:4: 'smooth' is not a number");
 }
 
-TEST_F(Paints, OfAGltfHaveItsNormalPicturesAndTheirScale) {
+TEST_F(Appearances, OfAGltfHaveItsNormalMapsAndTheirScale) {
   std::string points;
   for (const float f : {0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
     points.append(reinterpret_cast<const char*>(&f), 4);
@@ -197,7 +197,7 @@ TEST_F(Paints, OfAGltfHaveItsNormalPicturesAndTheirScale) {
   expect_refused("a.gltf", "a.gltf: roughnessFactor must be a number");
 }
 
-TEST_F(Paints, OfAGltfAreBaseColoursAndPicturesWhereverTheyLie) {
+TEST_F(Appearances, OfAGltfHaveItsBaseColoursAndTexturesFromAnySource) {
   std::string points;
   for (const float f : {0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
     points.append(reinterpret_cast<const char*>(&f), 4);

@@ -1,5 +1,5 @@
-// Figure 9 of the paper: cuts leave polygons that stay few, where a cutter of triangles makes ever
-// more of them, and worse ones.
+// Tests of figure 9 of the paper: cuts of polygon meshes make few faces, while cuts of triangle
+// meshes make more and more triangles of worse shape.
 #include <gtest/gtest.h>
 
 #include "bench/triangles.h"
@@ -20,8 +20,8 @@ PolygonMesh hexagonal_prism() {
   return polygon_mesh(make_prism(corners, 0, 1, false));
 }
 
-/// Faces that look up, of all pieces.
-std::size_t tops(const std::vector<PolygonMesh>& pieces) {
+/// Returns the number of upward faces of all pieces.
+std::size_t upward_faces(const std::vector<PolygonMesh>& pieces) {
   std::size_t count = 0;
   for (const PolygonMesh& piece : pieces)
     for (const PolygonMesh::Face& face : piece.faces) count += face.plane.normal.y() > 0.999;
@@ -31,25 +31,25 @@ std::size_t tops(const std::vector<PolygonMesh>& pieces) {
 TEST(Polygons, AHexagonSplitTwiceIsFourPolygonsAndThriceAsManyTriangles) {
   std::vector<PolygonMesh> polygons = {hexagonal_prism()};
   std::vector<PolygonMesh> triangles = {bench::triangulated(polygons[0])};
-  EXPECT_EQ(tops(triangles), 4u);
+  EXPECT_EQ(upward_faces(triangles), 4u);
   const Vec3 normals[] = {Vec3(1, 0, 0.3).normalized(), Vec3(0.2, 0, 1).normalized()};
   for (std::size_t i = 0; i < 2; ++i) {
     const Plane plane = Plane::through(Vec3(0.05, 0, 0.02), normals[i]);
     polygons = bench::cut_all(polygons, plane, {2 * i + 2}, false);
     triangles = bench::cut_all(triangles, plane, {2 * i + 2}, true);
   }
-  EXPECT_EQ(tops(polygons), 4u);
-  EXPECT_GE(tops(triangles), 12u);
+  EXPECT_EQ(upward_faces(polygons), 4u);
+  EXPECT_GE(upward_faces(triangles), 12u);
 }
 
-TEST(Polygons, OfATorusCutAgainAndAgainAreFewerThanTrianglesByEverMore) {
+TEST(Polygons, OfARepeatedlyCutTorusAreFewerThanTrianglesByAGrowingFactor) {
   const std::string file = SUNDER_ROOT "/scenes/meshes/torus.obj";
   const PolygonMesh torus = repair_mesh(read_mesh(file), file).shells.at(0);
   std::vector<PolygonMesh> polygons = {torus}, triangles = {bench::triangulated(torus)};
   const double volume_m3 = bench::volume_m3(polygons);
   const std::vector<Plane> planes = bench::planes_through(bounds(torus), 6);
-  std::size_t ill = bench::ill_shaped(triangles);
-  double times = 0;
+  std::size_t ill_count = bench::ill_shaped(triangles);
+  double ratio = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     polygons = bench::cut_all(polygons, planes[i], {2 * i + 2}, false);
     triangles = bench::cut_all(triangles, planes[i], {2 * i + 2}, true);
@@ -58,13 +58,13 @@ TEST(Polygons, OfATorusCutAgainAndAgainAreFewerThanTrianglesByEverMore) {
     EXPECT_NEAR(bench::volume_m3(polygons), volume_m3, 1e-12);
     EXPECT_NEAR(bench::volume_m3(triangles), volume_m3, 1e-9) << "both cutters cut the same";
     const double now = double(bench::face_count(triangles)) / double(bench::face_count(polygons));
-    EXPECT_GT(now, times);
-    EXPECT_GE(bench::ill_shaped(triangles), ill);
-    times = now;
-    ill = bench::ill_shaped(triangles);
+    EXPECT_GT(now, ratio);
+    EXPECT_GE(bench::ill_shaped(triangles), ill_count);
+    ratio = now;
+    ill_count = bench::ill_shaped(triangles);
   }
-  EXPECT_GT(times, 1.5);
-  EXPECT_GT(ill, 2 * bench::ill_shaped(polygons));
+  EXPECT_GT(ratio, 1.5);
+  EXPECT_GT(ill_count, 2 * bench::ill_shaped(polygons));
 }
 
 }  // namespace

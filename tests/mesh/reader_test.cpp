@@ -1,4 +1,4 @@
-// Meshes from files: what is read is what was meant, and nothing a file says can do harm.
+// Tests of mesh files in every format, their errors and limits, and of damaged files.
 #include <cstring>
 #include <limits>
 
@@ -62,7 +62,7 @@ const std::string kStl =
     "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\n"
     "vertex 0 1e0 0\nendloop\nendfacet\nendsolid test\n";
 
-/// The body of kPly in binary, in one byte order.
+/// Returns kPly in binary, in one byte order.
 std::string binary_ply(bool swap) {
   const std::string format = swap ? "binary_big_endian" : "binary_little_endian";
   std::string bytes = kPly.substr(0, kPly.find("end_header\n") + 11);
@@ -87,7 +87,7 @@ std::string binary_stl() {
   return bytes + raw(std::uint16_t{0});
 }
 
-/// A triangle with normals under a node that doubles and moves it; the buffer in base 64.
+/// Returns a triangle with normals under a node that doubles and moves it; buffer in base 64.
 std::string gltf(const std::string& buffer) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
 "nodes":[{"children":[1],"translation":[0,0,5]},{"mesh":0,"scale":[2,2,-2]}],
@@ -178,9 +178,10 @@ TEST(MeshReader, GltfNodesPlaceTheirMeshes) {
   for (const std::string& text : {embedded_gltf(), glb()}) {
     const RawMesh mesh = parse(text, MeshFormat::kGltf);
     ASSERT_EQ(mesh.polygons.size(), 1u);
-    EXPECT_EQ(mesh.vertices[0], Vec3(0, 0, 3));  // doubled, mirrored, moved by 5
+    EXPECT_EQ(mesh.vertices[0], Vec3(0, 0, 3));  // Doubled, mirrored, and moved by 5.
     EXPECT_EQ(mesh.vertices[1], Vec3(2, 0, 5));
-    EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 2, 1}));  // mirrored, so turned
+    // The mirrored triangle is reversed.
+    EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 2, 1}));
     EXPECT_EQ(mesh.corner_normals[0], Vec3f(0, 0, -1));
     ASSERT_EQ(mesh.groups.size(), 1u);
     EXPECT_EQ(mesh.groups[0].names, std::vector<std::string>{"tri"});
@@ -211,7 +212,7 @@ TEST(MeshReader, LimitsAreKept) {
   EXPECT_THROW(parse_mesh(to_bytes(kObj), MeshFormat::kObj, "test", few), InputError);
   const MeshLimits small{.bytes = 10};
   EXPECT_THROW(parse_mesh(to_bytes(kObj), MeshFormat::kObj, "test", small), InputError);
-  // Counts that no file of this size can hold cost neither memory nor time.
+  // Counts that no file of this size can have cost neither memory nor time.
   for (const char* count : {"4000000000", "99999999999999", "-1"}) {
     std::string ply = kPly, off = kOff;
     ply.replace(ply.find("vertex 4") + 7, 1, count);
@@ -229,7 +230,7 @@ TEST(MeshReader, AGltfReadsNothingOutsideItsFolder) {
   }
 }
 
-/// Damages a file in one of the ways files are damaged.
+/// Damages a file by up to three random edits.
 std::string mutated(std::string bytes, Random& random) {
   const auto size = static_cast<std::uint32_t>(bytes.size());
   for (std::uint32_t i = 0, n = 1 + random.below(3); i < n && !bytes.empty(); ++i) {

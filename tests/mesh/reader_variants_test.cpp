@@ -1,4 +1,4 @@
-// Meshes as other programs write them: each variant of a format is the same tetrahedron.
+// Tests of files of other programs: each variant of a format is the same tetrahedron.
 #include <cstring>
 #include <string>
 
@@ -41,7 +41,7 @@ std::string bytes(std::initializer_list<T> values) {
   return text;
 }
 
-const std::string kMark = "\xef\xbb\xbf";
+const std::string kByteOrderMark = "\xef\xbb\xbf";
 const std::string kPoints = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
 const std::string kFaces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 const std::string kObj =
@@ -50,7 +50,7 @@ const std::string kPly =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
     "property float z\n";
 
-TEST(MeshVariants, LinesEndAsOnAnySystem) {
+TEST(MeshVariants, AnyLineEndingIsRead) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     expect_tetrahedron(replaced(kObj, "\n", end), MeshFormat::kObj, "obj");
     expect_tetrahedron(replaced("OFF\n4 4 0\n" + kPoints + kFaces, "\n", end), MeshFormat::kOff,
@@ -58,15 +58,16 @@ TEST(MeshVariants, LinesEndAsOnAnySystem) {
   }
 }
 
-TEST(MeshVariants, AByteOrderMarkIsPassedOver) {
-  expect_tetrahedron(kMark + kObj, MeshFormat::kObj, "obj");
-  expect_tetrahedron(kMark + "OFF\n4 4 0\n" + kPoints + kFaces, MeshFormat::kOff, "off");
-  expect_tetrahedron(kMark + kPly + "element face 4\nproperty list uchar int vertex_index\n" +
-                         "end_header\n" + kPoints + kFaces,
+TEST(MeshVariants, AByteOrderMarkIsIgnored) {
+  expect_tetrahedron(kByteOrderMark + kObj, MeshFormat::kObj, "obj");
+  expect_tetrahedron(kByteOrderMark + "OFF\n4 4 0\n" + kPoints + kFaces, MeshFormat::kOff, "off");
+  expect_tetrahedron(kByteOrderMark + kPly +
+                         "element face 4\nproperty list uchar int vertex_index\n" + "end_header\n" +
+                         kPoints + kFaces,
                      MeshFormat::kPly, "ply");
 }
 
-TEST(MeshVariants, NormalsThatAreNoNumbersAreAsNone) {
+TEST(MeshVariants, InvalidNormalsAreIgnored) {
   for (const std::string nan : {"nan", "-nan(ind)", "NaN", "-1.#IND", "inf"}) {
     const std::string obj =
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 " + nan + "\nvt " + nan +
@@ -97,7 +98,7 @@ TEST(MeshVariants, OffKeywordsAreReadInAnyOrderAndCase) {
   EXPECT_THROW(parse("4OFF\n4 4 0\n" + kPoints + kFaces, MeshFormat::kOff), InputError);
 }
 
-/// The triangles of kObj as text, without normals.
+/// Returns the triangles of kObj as STL text, without normals.
 std::string stl_text() {
   const char* const points[] = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
   const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -126,7 +127,7 @@ std::string stl_binary(const std::string& header, std::uint32_t count) {
   return file;
 }
 
-TEST(MeshVariants, StlIsToldByItsBytesNotByItsFirstWord) {
+TEST(MeshVariants, BinaryStlIsRecognizedWhateverItsFirstWord) {
   expect_tetrahedron(stl_text(), MeshFormat::kStl, "text");
   expect_tetrahedron(upper(stl_text()), MeshFormat::kStl, "capitals");
   expect_tetrahedron(stl_binary("made by someone", 4), MeshFormat::kStl, "binary");
@@ -136,7 +137,7 @@ TEST(MeshVariants, StlIsToldByItsBytesNotByItsFirstWord) {
   EXPECT_THROW(parse(stl_binary("cut short", 5), MeshFormat::kStl), InputError);
 }
 
-/// A glTF whose buffer is the tetrahedron's points, its indices, and two more points.
+/// Returns a glTF whose buffer has the tetrahedron's points, its indices, and two more points.
 std::string gltf(const std::string& position_accessor, const std::string& more = "") {
   return R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":88,"uri":"data:;base64,)"
          "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/"
@@ -170,7 +171,7 @@ TEST(MeshVariants, GltfAccessorsMayBeSparse) {
       InputError);
 }
 
-TEST(MeshVariants, GltfExtensionsOfLooksArePassedOver) {
+TEST(MeshVariants, GltfExtensionsOfMaterialsAreIgnored) {
   const std::string whole = R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})";
   const auto required = [&](const std::string& extension) {
     return gltf(whole, R"(,"extensionsRequired":[")" + extension + R"("])");

@@ -1,4 +1,4 @@
-// Repair: what is broken is mended and named, what is sound is left alone, and everything ends.
+// Tests of repair: defects are repaired and reported, valid meshes unchanged, time is bounded.
 #include "engine/geometry/repair/repair.h"
 
 #include <cmath>
@@ -19,14 +19,14 @@
 namespace sunder {
 namespace {
 
-/// What sanitizers and checked libraries may cost.
+/// Factor on time limits for sanitizers and checked libraries.
 #ifdef NDEBUG
-constexpr double kSlower = 1;
+constexpr double kTimeFactor = 1;
 #else
-constexpr double kSlower = 20;
+constexpr double kTimeFactor = 20;
 #endif
 
-/// Appends a box of six quads; some of its faces (-x +x -y +y -z +z) may be left out.
+/// Appends a box of six quads; some of its faces (-x +x -y +y -z +z) may be omitted.
 void add_box(RawMesh& mesh, const Vec3& min, const Vec3& max, std::set<int> without = {},
              bool inside_out = false) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -69,7 +69,7 @@ std::size_t count_of(const RepairedMesh& repaired, const std::string& name) {
   return count;
 }
 
-TEST(InsertInEdges, GivesCornersWhatIsBetweenThoseOfTheEdge) {
+TEST(InsertInEdges, InterpolatesTheAttributesOfNewCorners) {
   RawMesh mesh;
   mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {3, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   for (int copy = 0; copy < 2; ++copy) append_polygon(mesh, std::vector{0u, 1u, 2u, 3u}, 0);
@@ -89,14 +89,14 @@ TEST(InsertInEdges, GivesCornersWhatIsBetweenThoseOfTheEdge) {
   }
 }
 
-TEST(Repair, ASoundMeshIsLeftAlone) {
+TEST(Repair, AValidMeshIsUnchanged) {
   const RepairedMesh repaired = repair_mesh(box(), "box", {.repair = false});
   EXPECT_TRUE(repaired.closed);
   EXPECT_TRUE(repaired.repairs.empty());
   ASSERT_EQ(repaired.shells.size(), 1u);
   EXPECT_EQ(repaired.shells[0].faces.size(), 6u);
   EXPECT_EQ(total_volume(repaired), 6);
-  for (std::size_t c = 0; c < 24; ++c) {  // the edges of a box are creases
+  for (std::size_t c = 0; c < 24; ++c) {  // The edges of a box are creases.
     EXPECT_EQ(repaired.shells[0].corner_normals[c].cwiseAbs().sum(), 1);
   }
 }
@@ -109,7 +109,7 @@ TEST(Repair, AHoleIsClosedByOnePolygon) {
   EXPECT_EQ(total_volume(repaired), 6);
 }
 
-TEST(Repair, WhatNeedsRepairIsRefusedWhereRepairIsOff) {
+TEST(Repair, AMeshWithDefectsIsRefusedIfRepairIsOff) {
   try {
     repair_mesh(box({2}), "box.obj", {.repair = false});
     FAIL();
@@ -138,7 +138,7 @@ TEST(Repair, SeparateFacesAreJoined) {
   EXPECT_NEAR(total_volume(repaired), 6, 1e-5);
 }
 
-TEST(Repair, FacesAreTurnedToAgreeAndOutward) {
+TEST(Repair, FacesAreOrientedConsistentlyAndOutward) {
   RawMesh mesh = box();
   reverse_polygon(mesh, 0);
   reverse_polygon(mesh, 3);
@@ -154,7 +154,7 @@ TEST(Repair, DegenerateAndDuplicateFacesAreDropped) {
   RawMesh mesh = box();
   append_polygon(mesh, std::array{0u, 0u, 1u}, 0);
   append_polygon(mesh, std::array{0u, 1u, 0u, 2u}, 0);
-  append_polygon(mesh, std::array{6u, 2u, 0u, 4u}, 0);  // the first face from another corner
+  append_polygon(mesh, std::array{6u, 2u, 0u, 4u}, 0);  // The first face, from another corner on.
   const RepairedMesh repaired = repair_mesh(mesh, "box");
   EXPECT_EQ(count_of(repaired, "degenerate faces dropped"), 2u);
   EXPECT_EQ(count_of(repaired, "duplicate faces dropped"), 1u);
@@ -169,9 +169,9 @@ TEST(Repair, ADoubleSidedMeshBecomesOneSided) {
   EXPECT_EQ(total_volume(repaired), 6);
 }
 
-TEST(Repair, VerticesOnEdgesArePutIntoThem) {
+TEST(Repair, VerticesOnEdgesBecomeCornersAtTheEdge) {
   RawMesh mesh = box({4});
-  mesh.vertices.emplace_back(0.4, 0, 0);  // the -z face in two, which the -y face does not know of
+  mesh.vertices.emplace_back(0.4, 0, 0);  // Divides the -z face, but not the -y face beside it.
   mesh.vertices.emplace_back(0.4, 2, 0);
   append_polygon(mesh, std::array{0u, 2u, 9u, 8u}, 0);
   append_polygon(mesh, std::array{8u, 9u, 3u, 1u}, 0);
@@ -181,11 +181,11 @@ TEST(Repair, VerticesOnEdgesArePutIntoThem) {
   EXPECT_EQ(total_volume(repaired), 6);
 }
 
-TEST(Repair, SolidsThatTouchComeApart) {
+TEST(Repair, TouchingSolidsAreSeparated) {
   RawMesh mesh = box();
-  add_box(mesh, Vec3(1, 2, 0), Vec3(2, 3, 3));     // by an edge
-  add_box(mesh, Vec3(0, 0, 3), Vec3(1, 2, 4));     // by a face
-  add_box(mesh, Vec3(-1, -1, -1), Vec3(0, 0, 0));  // by a vertex
+  add_box(mesh, Vec3(1, 2, 0), Vec3(2, 3, 3));     // Touches in an edge.
+  add_box(mesh, Vec3(0, 0, 3), Vec3(1, 2, 4));     // Touches in a face.
+  add_box(mesh, Vec3(-1, -1, -1), Vec3(0, 0, 0));  // Touches in a vertex.
   const RepairedMesh repaired = repair_mesh(mesh, "boxes");
   EXPECT_EQ(repaired.shells.size(), 4u);
   EXPECT_EQ(total_volume(repaired), 6 + 3 + 2 + 1);
@@ -201,8 +201,8 @@ TEST(Repair, ACavityStaysWithTheShellAroundIt) {
   EXPECT_EQ(total_volume(repaired), 6 - 0.125 + 1);
 }
 
-TEST(Repair, WallsThatMeetNowhereAreEnclosed) {
-  RawMesh mesh;  // six sheets, each too small to meet the others
+TEST(Repair, UnconnectedSheetsAreEnclosed) {
+  RawMesh mesh;  // Six sheets, each too small to meet the others.
   for (int f = 0; f < 6; ++f) {
     std::set<int> others = {0, 1, 2, 3, 4, 5};
     others.erase(f);
@@ -224,7 +224,7 @@ TEST(Repair, WallsThatMeetNowhereAreEnclosed) {
   EXPECT_NEAR(total_volume(repaired), 1, 0.05);
 }
 
-TEST(Repair, ASheetEnclosesNothing) {
+TEST(Repair, ASheetWithoutVolumeIsRefused) {
   EXPECT_THROW(repair_mesh(box({0, 1, 2, 3, 4}), "sheet"), InputError);
   EXPECT_THROW(repair_mesh(RawMesh(), "nothing"), InputError);
 }
@@ -239,7 +239,7 @@ TEST(Repair, PolygonsThatAreNotPlanarBecomeTriangles) {
 }
 
 TEST(Repair, SmoothNormalsStopAtCreases) {
-  RawMesh prism;  // a column of 24 sides: round sides, sharp rims
+  RawMesh prism;  // A column of 24 sides, with smooth sides and sharp rims.
   constexpr std::uint32_t kSides = 24;
   std::vector<std::uint32_t> bottom, top;
   for (std::uint32_t i = 0; i < kSides; ++i) {
@@ -268,7 +268,7 @@ TEST(Repair, SmoothNormalsStopAtCreases) {
   }
 }
 
-TEST(Repair, TheFilesNormalsAreKeptAndTurnedWithTheirFaces) {
+TEST(Repair, NormalsOfTheFileAreKeptAndFlippedWithTheirFaces) {
   RawMesh mesh;
   add_box(mesh, Vec3::Zero(), Vec3::Ones(), {}, true);
   for (const RawMesh::Polygon& polygon : mesh.polygons) {
@@ -306,7 +306,7 @@ TEST(Triangulate, CoversConcaveContoursOnce) {
   }
 }
 
-TEST(Winding, IsOneInsideAndNoughtOutside) {
+TEST(Winding, IsOneInsideAndZeroOutside) {
   std::vector<std::array<Vec3, 3>> triangles;
   const RawMesh mesh = box();
   for (std::size_t p = 0; p < 6; ++p) {
@@ -336,12 +336,12 @@ TEST(Winding, ArcTangentIsExact) {
 TEST(Repair, AnySoupEndsInTime) {
   Random random(9);
   const auto point = [&] { return Vec3(random.uniform(), random.uniform(), random.uniform()); };
-  RawMesh soup;  // of triangles that all overlap
+  RawMesh soup;  // Triangles that all overlap.
   for (std::uint32_t t = 0; t < 10000; ++t) {
     for (int k = 0; k < 3; ++k) soup.vertices.push_back(point());
     append_polygon(soup, std::array{3 * t, 3 * t + 1, 3 * t + 2}, 0);
   }
-  RawMesh fans;  // of polygons with very many corners
+  RawMesh fans;  // Polygons with very many corners.
   for (std::uint32_t p = 0; p < 20; ++p) {
     std::vector<std::uint32_t> polygon;
     for (int k = 0; k < 1900 + 20 * static_cast<int>(p); ++k) {
@@ -357,7 +357,7 @@ TEST(Repair, AnySoupEndsInTime) {
     } catch (const InputError&) {
     }
     const double took_s = test::cpu_time_s() - start_s;
-    EXPECT_LT(took_s, 20 * kSlower);  // a bound, not a figure
+    EXPECT_LT(took_s, 20 * kTimeFactor);  // A generous bound, not a measurement.
   }
 }
 
@@ -371,7 +371,7 @@ TEST(RealMeshes, GoodOnesNeedNoRepair) {
   }
 }
 
-TEST(RealMeshes, NastyOnesEndInSolidsOrInOneClearLine) {
+TEST(RealMeshes, DefectiveOnesBecomeSolidsOrAreRefusedInOneLine) {
   std::set<std::string> refused;
   for (const auto& file : test::meshes("nasty")) {
     const std::string name = file.filename().string();
@@ -385,7 +385,7 @@ TEST(RealMeshes, NastyOnesEndInSolidsOrInOneClearLine) {
       refused.insert(name);
     }
     const double took_s = test::cpu_time_s() - start_s;
-    EXPECT_LT(took_s, 5 * kSlower) << name;
+    EXPECT_LT(took_s, 5 * kTimeFactor) << name;
   }
   for (const std::string& name : refused) {
     for (const char* kit : {"kaykit_", "kenney_", "bunny_"}) EXPECT_NE(name.rfind(kit, 0), 0u);

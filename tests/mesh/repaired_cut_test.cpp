@@ -1,5 +1,4 @@
-// What repair promises to the cut: real meshes, sound and broken, halve into watertight parts that
-// make up the whole.
+// Tests that repaired meshes are cut into watertight halves whose volumes add up.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -40,7 +39,7 @@ void expect_cuts_add_up(const std::vector<PolygonMesh>& shells, const std::strin
       const Vec3 direction = i == 0 ? Vec3(Vec3::UnitY()) : random.direction();
       const Plane plane = Plane::through(box.center() + box.extent().cwiseProduct(away), direction);
       const double sum = half_volume(shell, plane, {2}) + half_volume(shell, plane.flipped(), {3});
-      // Of the box, where the volume is a small difference of large parts.
+      // The tolerance is relative to the box where the volume is a small difference of large parts.
       EXPECT_NEAR(sum, whole, 1e-12 * std::max(whole, box.extent().prod())) << name;
     }
   }

@@ -1,22 +1,23 @@
-// A hull that grows point by point has the volume of its points so far, in closed form.
+// Tests that a hull built point by point has the volume of its points so far, in closed form.
+#include "fracture/vacd/sweep_hull.h"
+
 #include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
-#include "fracture/vacd/sweep.h"
 
 namespace sunder::fracture {
 namespace {
 
-/// Starts it on the corners of a cube of edge 1.
+/// Restarts the hull on the corners of a cube of edge 1.
 void grow_cube(SweepHull& hull) {
   hull.restart(Vec3::Constant(5), 1);
   for (int i = 0; i < 8; ++i) hull.add(Vec3(5 + (i & 1), 5 + (i >> 1 & 1), 5 + (i >> 2 & 1)));
 }
 
-// Points are joggled by a hundred-thousandth of the size: a hull is off by that times its surface.
+// Points are joggled by 1e-5 of the size; the error of a volume is that times the surface.
 TEST(SweepHull, HasTheVolumeOfEverySliceOfABox) {
   SweepHull hull;
   hull.restart(Vec3::Zero(), 4);
@@ -46,7 +47,7 @@ TEST(SweepHull, IsTheSameInAnyOrder) {
   EXPECT_NEAR(volume_m3(), volume, 1e-3);
 }
 
-TEST(SweepHull, TakesAPointThatAddsMoreThanAskedFor) {
+TEST(SweepHull, AddsAPointOnlyIfItAddsMoreThanTheGivenVolume) {
   SweepHull hull;
   grow_cube(hull);
   ASSERT_NEAR(hull.volume_m3(), 1, 1e-4);
@@ -58,17 +59,17 @@ TEST(SweepHull, TakesAPointThatAddsMoreThanAskedFor) {
   EXPECT_NEAR(hull.volume_m3(), 1.101, 1e-4);
 }
 
-TEST(SweepHull, CountsPointsThatCameBeforeThereWasAVolume) {
+TEST(SweepHull, CountsPointsAddedBeforeItHasAVolume) {
   SweepHull hull;
   hull.restart(Vec3::Zero(), 1);
-  // Joggled by a hundred-thousandth, points of a plane span next to nothing, so a point is enough.
+  // Joggled by 1e-5, points of a plane span a tiny volume, so a single point has to count.
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(hull.add(Vec3(0.25 * i, 0, 0)));
   hull.add(Vec3(0, 1, 0));
   hull.add(Vec3(0, 0, 1));
   EXPECT_NEAR(hull.volume_m3(), 1.0 / 6, 1e-4);
 }
 
-TEST(SweepHull, ForgetsWhatWasBeforeItsRestart) {
+TEST(SweepHull, IsEmptyAfterARestart) {
   SweepHull hull;
   grow_cube(hull);
   hull.restart(Vec3::Zero(), 1);

@@ -1,5 +1,5 @@
-// Decompositions of real and made-up meshes: pieces are watertight and make up the whole, hulls
-// hold them, regions share planes.
+// Tests of decompositions of real and made meshes: pieces are watertight and make up the whole,
+// hulls enclose the meshes of their pieces, and regions share planes.
 #include "fracture/vacd/vacd.h"
 
 #include <algorithm>
@@ -31,12 +31,12 @@ RepairedMesh one_shell(PolygonMesh mesh) {
 
 RepairedMesh cube() { return one_shell(polygon_mesh(make_box(Vec3::Zero(), Vec3::Ones()))); }
 
-/// Empty if the convexes are what decompose() promises, otherwise what is wrong with them.
-std::string broken_promise(const Compound& compound, const RepairedMesh& mesh) {
-  double whole = 0, room = 0;
+/// Returns "" if the convexes are as decompose() promises; otherwise the first violation.
+std::string find_violation(const Compound& compound, const RepairedMesh& mesh) {
+  double whole = 0, boxes_m3 = 0;
   for (const PolygonMesh& shell : mesh.shells) {
     whole += mass_properties(shell).volume_m3;
-    room += bounds(shell).extent().prod();
+    boxes_m3 += bounds(shell).extent().prod();
   }
   double sum = 0;
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
@@ -55,8 +55,8 @@ std::string broken_promise(const Compound& compound, const RepairedMesh& mesh) {
       }
     }
   }
-  // Of the box, where the volume is a small difference of large parts.
-  if (std::abs(sum - whole) > 1e-12 * std::max(whole, room)) {
+  // The tolerance is relative to the box where the volume is a small difference of large parts.
+  if (std::abs(sum - whole) > 1e-12 * std::max(whole, boxes_m3)) {
     return "volumes sum to " + std::to_string(sum) + " of " + std::to_string(whole);
   }
   return "";
@@ -74,7 +74,7 @@ std::vector<std::array<Vec3, 3>> triangles(const PolygonMesh& mesh) {
   return fans;
 }
 
-/// Whether, at points around, the pieces wind as often as the mesh: cover without overlap.
+/// Expects the winding number of the mesh at random points: pieces cover it without overlap.
 void expect_same_winding(const Compound& compound, const PolygonMesh& mesh) {
   const WindingField whole(triangles(mesh));
   std::vector<WindingField> parts;
@@ -93,7 +93,7 @@ void expect_same_winding(const Compound& compound, const PolygonMesh& mesh) {
   }
 }
 
-TEST(Vacd, OfRealMeshesKeepsItsPromises) {
+TEST(Vacd, OfRealMeshesKeepsItsInvariants) {
   for (const std::string set : {"good", "nasty"}) {
     for (const auto& file : test::meshes(set)) {
       const std::string name = file.filename().string();
@@ -105,20 +105,20 @@ TEST(Vacd, OfRealMeshesKeepsItsPromises) {
         continue;
       }
       const Vacd vacd = decompose(mesh);
-      // A mesh that is inside out in places gets a new surface before it is used.
+      // A mesh that is inside out in places gets a new surface before it is decomposed.
       if (vacd.figures.inside_out_m3 > 1e-3 * vacd.figures.mesh_volume_m3) continue;
-      EXPECT_EQ(broken_promise(vacd.compound, mesh), "") << name;
-      if (vacd.figures.max_faces_per_convex > 3000) continue;  // for the time it takes
+      EXPECT_EQ(find_violation(vacd.compound, mesh), "") << name;
+      if (vacd.figures.max_faces_per_convex > 3000) continue;  // Would take too long.
       VacdOptions tight;
       tight.convexes = 8;
       const Compound compound = decompose(mesh, tight).compound;
-      EXPECT_EQ(broken_promise(compound, mesh), "") << name;
+      EXPECT_EQ(find_violation(compound, mesh), "") << name;
       EXPECT_LE(compound.convexes.size(), std::max<std::size_t>(8, mesh.shells.size())) << name;
     }
   }
 }
 
-/// An L of boxes, as one mesh of 12 vertices: two convexes make it up exactly.
+/// Returns an L of two boxes, as one mesh of 12 vertices; two convexes make it up exactly.
 RepairedMesh corner_mesh() {
   const Vec2 outline[] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}};
   RawMesh raw;
@@ -143,7 +143,7 @@ TEST(Vacd, CutsWhereAMeshIsConcave) {
   const Vacd vacd = decompose(mesh, options);
   EXPECT_EQ(vacd.compound.convexes.size(), 2u);
   EXPECT_LT(vacd.figures.hull_volume_ratio(), 1.02);
-  EXPECT_EQ(broken_promise(vacd.compound, mesh), "");
+  EXPECT_EQ(find_violation(vacd.compound, mesh), "");
 }
 
 TEST(Vacd, IsTheSameForAnyNumberOfThreads) {
@@ -187,7 +187,7 @@ TEST(Vacd, NeverMakesAPieceOfMorePolygonsThanAllowed) {
   options.polygons = 500;
   const Vacd vacd = decompose(mesh, options);
   EXPECT_LE(vacd.figures.max_faces_per_convex, 500u);
-  EXPECT_EQ(broken_promise(vacd.compound, mesh), "");
+  EXPECT_EQ(find_violation(vacd.compound, mesh), "");
 }
 
 TEST(Vacd, ShellsThatOverlapAreHeldTogetherByGhosts) {
@@ -199,7 +199,7 @@ TEST(Vacd, ShellsThatOverlapAreHeldTogetherByGhosts) {
   const Vacd vacd = decompose(mesh, options);
   EXPECT_EQ(vacd.compound.convexes.size(), 2u);
   EXPECT_EQ(vacd.figures.ghosts, 1u);
-  EXPECT_EQ(broken_promise(vacd.compound, mesh), "");
+  EXPECT_EQ(find_violation(vacd.compound, mesh), "");
 }
 
 TEST(Vacd, RefusesMoreNodesByHandThanConvexesAllowed) {
@@ -211,7 +211,7 @@ TEST(Vacd, RefusesMoreNodesByHandThanConvexesAllowed) {
   EXPECT_EQ(decompose(cube(), options).compound.convexes.size(), 3u);
 }
 
-/// Three by three by three nodes in a unit cube.
+/// Returns a grid of 3 × 3 × 3 nodes in a unit cube.
 VacdOptions grid_nodes() {
   VacdOptions options;
   for (int x = 0; x < 3; ++x) {
@@ -227,11 +227,11 @@ TEST(Vacd, CellsWithinTheMeshAreInternal) {
   mesh.shells[0].corner_uvs.assign(mesh.shells[0].corners.size(), Vec2f(0.5f, 0.5f));
   const Vacd vacd = decompose(mesh, grid_nodes());
   ASSERT_EQ(vacd.compound.convexes.size(), 27u);
-  EXPECT_EQ(broken_promise(vacd.compound, mesh), "");
+  EXPECT_EQ(find_violation(vacd.compound, mesh), "");
   EXPECT_EQ(std::count_if(vacd.compound.convexes.begin(), vacd.compound.convexes.end(),
                           [](const ConvexPtr& convex) { return convex->is_internal(); }),
             1);
-  EXPECT_EQ(vacd.compound.bonds.size(), 54u);  // between neighbours in a 3 × 3 × 3 grid
+  EXPECT_EQ(vacd.compound.bonds.size(), 54u);  // Between neighbours in a 3 × 3 × 3 grid.
 }
 
 TEST(Vacd, TwoNodesOfABarLieAtTheMeansOfTheSurfaceOfItsHalves) {
@@ -239,14 +239,14 @@ TEST(Vacd, TwoNodesOfABarLieAtTheMeansOfTheSurfaceOfItsHalves) {
   std::vector<Vec3> nodes = automatic_nodes(bar, 2);
   ASSERT_EQ(nodes.size(), 2u);
   if (nodes[0].x() > nodes[1].x()) std::swap(nodes[0], nodes[1]);
-  const double mean_m = 2.5 * 20 / 21;  // of four sides of 5 m², and one end of 1 m² at 0
+  const double mean_m = 2.5 * 20 / 21;  // The mean of four sides of 5 m² and one end of 1 m² at 0.
   EXPECT_LT((nodes[0] - Vec3(mean_m, 0.5, 0.5)).norm(), 0.2) << "as far as samples allow";
   EXPECT_LT((nodes[1] - Vec3(10 - mean_m, 0.5, 0.5)).norm(), 0.2);
 }
 
 TEST(Vacd, FlatConvexPiecesNeedNoVisualMesh) {
   const Vacd vacd = decompose(cube(), grid_nodes());
-  EXPECT_EQ(broken_promise(vacd.compound, cube()), "");
+  EXPECT_EQ(find_violation(vacd.compound, cube()), "");
   std::size_t surface_faces = 0;
   for (const ConvexPtr& convex : vacd.compound.convexes) {
     EXPECT_TRUE(convex->is_internal());
@@ -254,7 +254,7 @@ TEST(Vacd, FlatConvexPiecesNeedNoVisualMesh) {
       surface_faces += face.kind == FaceKind::kSurface;
     }
   }
-  EXPECT_EQ(surface_faces, 54u);  // nine on each side of the cube
+  EXPECT_EQ(surface_faces, 54u);  // Nine on each side of the cube.
 }
 
 TEST(Vacd, ConvexPiecesThatAreShadedSmoothKeepTheirVisualMeshes) {

@@ -1,4 +1,4 @@
-// What the air promises: no divergence, solids that move it, dust that weighs on it.
+// Tests of the air: no divergence, obstacles that move it, the weight of dust, and its grid.
 #include "solver/particles/air.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double kDt = 1.0 / 60;
 const Vec3 kGravity(0, -9.81, 0);
 const Vec3i kCounts(32, 16, 32);
 
-/// A grid of 4 × 2 × 4 m with cells of 12.5 cm about a point.
+/// Returns a grid of 4 × 2 × 4 m with cells of 12.5 cm about a point.
 Air air_about(const Vec3& center) {
   Air air(kCounts);
   air.place(Box{center - Vec3::Constant(0.2), center + Vec3::Constant(0.2)}, 0);
@@ -44,7 +44,7 @@ TEST(Air, IsFreeOfDivergenceAfterEveryStep) {
   }
 }
 
-TEST(Air, WithoutCauseStaysStill) {
+TEST(Air, WithoutSourcesStaysAtRest) {
   TestObstacles obstacles;
   obstacles.add_box(Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0.2));
   Air air = air_about(Vec3(0, 1, 0));
@@ -58,19 +58,19 @@ TEST(Air, IsDisplacedByAMovingSlab) {
   obstacles.set_velocity(obstacles.add_box(Vec3(0, 0.9, 0), Vec3(0.05, 0.4, 0.4)), Vec3(2, 0, 0));
   Air air = air_about(Vec3(0, 0.9, 0));
   air.advance(kDt, Vec3::Zero(), obstacles.view());
-  // At the slab the air moves with it; before and behind it, the same way, but less.
+  // At the slab the air moves with it; before and behind it, in the same direction, but slower.
   EXPECT_NEAR(air.velocity(Vec3f(0, 0.9f, 0)).x(), 2, 0.2);
   EXPECT_GT(air.velocity(Vec3f(0.4f, 0.9f, 0)).x(), 0.2f);
   EXPECT_GT(air.velocity(Vec3f(-0.4f, 0.9f, 0)).x(), 0.2f);
-  // What it pushes away comes back around its edges.
+  // Displaced air returns around the slab's edges.
   EXPECT_LT(air.velocity(Vec3f(0, 0.9f, 0.7f)).x(), -0.05f);
   EXPECT_LT(air.velocity(Vec3f(0, 1.6f, 0)).x(), -0.02f);
-  // Ahead the air is driven outward, behind it is drawn in.
+  // The air moves outward ahead of the slab, and inward behind it.
   EXPECT_GT(air.velocity(Vec3f(0.25f, 0.9f, 0.5f)).z(), 0.02f);
   EXPECT_LT(air.velocity(Vec3f(-0.25f, 0.9f, 0.5f)).z(), -0.02f);
 }
 
-TEST(Air, IsSolvedAsFastWhereverItIsBlown) {
+TEST(Air, IsSolvedInFewIterationsForASourceAnywhere) {
   const TestObstacles obstacles;
   for (const int i : {1, 16, 32}) {
     Air air = air_about(Vec3(0, 1, 0));
@@ -109,7 +109,7 @@ TEST(Air, SinksUnderTheWeightOfDust) {
   EXPECT_LT(air.velocity(Vec3f(0, 1, 0)).y(), -0.1f);
 }
 
-TEST(Air, LosesItsEnergyWithoutCause) {
+TEST(Air, LosesItsEnergyWithoutSources) {
   const TestObstacles obstacles;
   Air air = air_about(Vec3(0, 1, 0));
   Random random(6);
@@ -145,7 +145,7 @@ TEST(Air, LosesItsEnergyWithoutCause) {
   EXPECT_LT(last, 0.2 * first);
 }
 
-TEST(Air, StaysAsItIsWhenTheGridMovesOrCoarsens) {
+TEST(Air, KeepsItsVelocityWhenTheGridMovesOrCoarsens) {
   TestObstacles obstacles;
   obstacles.set_velocity(obstacles.add_box(Vec3(0, 1, 0), Vec3(0.3, 0.3, 0.3)), Vec3(2, 0, 1));
   Air air = air_about(Vec3(0, 1, 0));
@@ -175,7 +175,7 @@ TEST(Air, EndsAtTheGround) {
   EXPECT_GT(air.velocity(Vec3f(0.5f, 0.5f, 0)).x(), 0.1f) << "squeezed out sideways";
 }
 
-TEST(Solids, CountTheirVolumeWhateverTheCells) {
+TEST(Solids, KeepTheirVolumeForAnyAlignmentWithTheCells) {
   TestObstacles obstacles;
   obstacles.add_box(Vec3(0.13, 0.97, 0.21), Vec3(0.33, 0.02, 0.51));
   obstacles.add_box(Vec3(-0.8, 1.01, 0.04), Vec3(0.01, 0.02, 0.03));

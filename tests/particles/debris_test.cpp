@@ -1,4 +1,4 @@
-// What debris promises: it falls, bounces, stays out of things, comes to rest, sleeps and fades.
+// Tests of debris: fall, bounces, collisions with obstacles, rest, sleep, and its budget.
 #include "solver/particles/debris.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void run(Debris& debris, TestObstacles& obstacles, double seconds) {
   }
 }
 
-TEST(Debris, FallsAsGravityWill) {
+TEST(Debris, FallsUnderGravity) {
   Debris debris(10, kGravity);
   TestObstacles obstacles;
   debris.add(chip_at(Vec3f(0, 20, 0), Vec3f(3, 0, 0)));
@@ -72,10 +72,10 @@ TEST(Debris, AtRestStaysWhereItIsBitForBit) {
   EXPECT_EQ(debris.view().position_W[0], before);
 }
 
-TEST(Debris, LiesOnATiltedBoxByFrictionAndWakesWhenItIsGone) {
+TEST(Debris, LiesOnATiltedBoxByFrictionAndWakesWhenTheBoxIsRemoved) {
   Debris debris(10, kGravity);
   TestObstacles obstacles;
-  const double half = 0.15;  // rad
+  const double half = 0.15;  // Tilt of the box in rad.
   obstacles.add_box(Vec3(0, 2, 0), Vec3(1, 0.1, 1), Quat(1, 0, 0, half / 2).normalized());
   debris.add(chip_at(Vec3f(0, 2.2f, 0)));
   run(debris, obstacles, 2);
@@ -104,7 +104,7 @@ TEST(Debris, DoesNotPassAThinPaneAtHighSpeed) {
   for (const Vec3f& at : debris.view().position_W) ASSERT_LT(normal.dot(at), 0);
 }
 
-TEST(Debris, IsSweptAlongByAMovingBodyEvenAsleep) {
+TEST(Debris, IsPushedByAMovingBodyEvenAsleep) {
   Debris debris(10, kGravity);
   TestObstacles obstacles;
   debris.add(chip_at(Vec3f(0, 0.1f, 0)));
@@ -115,11 +115,11 @@ TEST(Debris, IsSweptAlongByAMovingBodyEvenAsleep) {
   EXPECT_GT(debris.view().position_W[0].x(), 1.2f - 0.01f);
 }
 
-TEST(Debris, IsMetByAPaneThatPassesItsPlaceWithinAStep) {
+TEST(Debris, IsHitByAPaneThatPassesItsPlaceWithinAStep) {
   Debris debris(10, Vec3::Zero());
   TestObstacles obstacles;
   debris.add(chip_at(Vec3f(0, 1, 0)));
-  const double speed_m_s = 60;  // half a metre a step
+  const double speed_m_s = 60;  // Half a metre per step.
   const Vec3 behind(-0.5 * speed_m_s * kDt, 1, 0);
   obstacles.set_velocity(obstacles.add_box(behind, Vec3(0.01, 0.5, 0.5)), Vec3(speed_m_s, 0, 0));
   run(debris, obstacles, kDt);
@@ -142,11 +142,11 @@ TEST(Debris, StopsAtItsRadiusFromEverySideOfABox) {
   }
 }
 
-TEST(Debris, IsMetByABarThatTurnsPastItsPlaceWithinAStep) {
+TEST(Debris, IsHitByABarThatRotatesPastItsPlaceWithinAStep) {
   Debris debris(10, Vec3::Zero());
   TestObstacles obstacles;
   debris.add(chip_at(Vec3f(0.8f, 1, 0)));
-  const double spin_rad_s = 60;  // half a radian a step
+  const double spin_rad_s = 60;  // Half a radian per step.
   const Quat after(Eigen::AngleAxisd(0.5 * spin_rad_s * kDt, Vec3::UnitY()));
   const std::size_t bar = obstacles.add_box(Vec3(0, 1, 0), Vec3(1, 0.5, 0.01), after);
   obstacles.bodies[bar].angular_velocity_W = Vec3(0, spin_rad_s, 0);
@@ -165,7 +165,7 @@ TEST(Debris, RidesOnALiftWithoutFallingThrough) {
   EXPECT_NEAR(debris.view().position_W[0].y(), top + 0.02, 0.02);
 }
 
-TEST(Debris, SleepsOnABodyThatIsAwakeButHardlyMovesAndWakesWhenItHasGoneOn) {
+TEST(Debris, SleepsOnABodyThatHardlyMovesAndWakesWhenItHasMoved) {
   Debris debris(10, kGravity);
   TestObstacles obstacles;
   const std::size_t floor = obstacles.add_box(Vec3(0, 0.5, 0), Vec3(1, 0.05, 1));
@@ -173,12 +173,12 @@ TEST(Debris, SleepsOnABodyThatIsAwakeButHardlyMovesAndWakesWhenItHasGoneOn) {
   debris.add(chip_at(Vec3f(0, 0.65f, 0)));
   run(debris, obstacles, 2);
   EXPECT_EQ(debris.ledger().awake, 0u);
-  obstacles.set_velocity(floor, Vec3(0.02, 0, 0));  // a creep that is seen after a while
+  obstacles.set_velocity(floor, Vec3(0.02, 0, 0));  // The motion is detected after some steps.
   run(debris, obstacles, 0.2);
   EXPECT_EQ(debris.ledger().awake, 1u);
 }
 
-TEST(Debris, TouchesTheSameThingsWhateverTheirSizeAndNumberAndPlace) {
+TEST(Debris, RestsOnObstaclesOfAnySizeNumberAndPlace) {
   Debris debris(200, kGravity);
   TestObstacles obstacles;
   obstacles.add_box(Vec3(0, 0.25, 0), Vec3(400, 0.25, 400));
@@ -206,7 +206,7 @@ TEST(Debris, BouncesOffABall) {
   EXPECT_GT(at.x(), -2);
 }
 
-TEST(Debris, OverItsBudgetFadesTheOldestRestingAndIgnoresWhatIsOverItsLimit) {
+TEST(Debris, OverItsBudgetFadesTheOldestAtRestAndOverItsLimitRejectsChips) {
   Debris debris(160, kGravity);
   TestObstacles obstacles;
   for (int i = 0; i < 100; ++i) debris.add(chip_at(Vec3f(float(i), 0.05f, 0)));

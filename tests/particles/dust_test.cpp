@@ -1,5 +1,4 @@
-// What dust promises: it settles, swirls by its particles' orientation, and costs nothing when
-// there is none.
+// Tests of dust: settling, swirls by its particles' orientation, its grid of air, and its limit.
 #include "solver/particles/dust.h"
 
 #include <cmath>
@@ -25,7 +24,7 @@ DustBirth puff_at(const Vec3f& position) {
   return birth;
 }
 
-TEST(Dust, SettlesUnderGravityAtItsSpeedAndThenIsGone) {
+TEST(Dust, SettlesUnderGravityAtItsSpeedAndIsThenRemoved) {
   Dust dust(100, kGravity, kCounts);
   const TestObstacles obstacles;
   for (int i = 0; i < 50; ++i) {
@@ -41,7 +40,7 @@ TEST(Dust, SettlesUnderGravityAtItsSpeedAndThenIsGone) {
   EXPECT_EQ(dust.ledger().gone, 50u);
 }
 
-TEST(Dust, WithoutAnyHasNoGrid) {
+TEST(Dust, WithoutParticlesHasNoGrid) {
   Dust dust(100, kGravity, kCounts);
   const TestObstacles obstacles;
   dust.advance(kDt, obstacles.view());
@@ -54,7 +53,7 @@ TEST(Dust, WithoutAnyHasNoGrid) {
   EXPECT_EQ(dust.air(), nullptr);
 }
 
-TEST(Dust, ThrownIntoStillAirTakesTheAirAlong) {
+TEST(Dust, ThrownIntoAirAtRestAcceleratesTheAir) {
   Dust dust(1000, Vec3::Zero(), kCounts);
   const TestObstacles obstacles;
   Random random(2);
@@ -95,7 +94,7 @@ TEST(Dust, InsideASolidDoesNotSink) {
   for (const Vec3f& at : dust.view().position_W) EXPECT_NEAR(at.y(), 5, 0.01);
 }
 
-TEST(Dust, KeepsItsAirFineThoughAFewPuffsFlyFar) {
+TEST(Dust, KeepsItsGridFineIfAFewParticlesFlyFar) {
   const auto cell_m = [](int strays) {
     Dust dust(1000, kGravity, kCounts);
     for (int i = 0; i < 400; ++i) dust.add(puff_at(Vec3f(0.1f * float(i % 20), 1, 0)));
@@ -108,7 +107,7 @@ TEST(Dust, KeepsItsAirFineThoughAFewPuffsFlyFar) {
   EXPECT_EQ(cell_m(8), cell_m(0));
 }
 
-TEST(Dust, GoesOnInTheSameFlowWhenItsAirGetsFiner) {
+TEST(Dust, KeepsItsFlowWhenItsGridIsRefined) {
   Dust dust(4000, Vec3::Zero(), kCounts);
   const TestObstacles obstacles;
   Random random(2);
@@ -134,7 +133,7 @@ TEST(Dust, GoesOnInTheSameFlowWhenItsAirGetsFiner) {
   EXPECT_NEAR(dust.air()->velocity(Vec3f(0.1f, 3, 0)).x(), before, 0.25 * double{before});
 }
 
-TEST(Dust, OverItsLimitIsIgnoredAndCounted) {
+TEST(Dust, OverItsLimitIsRejectedAndCounted) {
   Dust dust(64, kGravity, kCounts);
   const TestObstacles obstacles;
   for (int i = 0; i < 100; ++i) dust.add(puff_at(Vec3f(0, 1, 0)));
@@ -178,11 +177,11 @@ TEST(Swirl, EndsACellsWidthAway) {
   EXPECT_EQ(velocity_in(swirl, lattice.index(6, 5, 5), Vec3f(5.2f, 4.5f, 4.5f)).norm(), 0);
 }
 
-TEST(Dust, MovesDifferentlyWhenItsParticlesAreTurned) {
+TEST(Dust, MovesDifferentlyWhenItsParticlesAreRotated) {
   const auto drift = [](const Quatf& rotation) {
     Dust dust(1000, Vec3::Zero(), kCounts);
     TestObstacles obstacles;
-    // The strain around the moving ball feeds the particles' turbulence.
+    // The strain around the moving ball is the source of the particles' turbulence.
     obstacles.set_velocity(obstacles.add_ball(Vec3(-0.5, 1, 0), 0.3), Vec3(4, 0, 0));
     Random random(7);
     for (int i = 0; i < 200; ++i) {
@@ -199,9 +198,10 @@ TEST(Dust, MovesDifferentlyWhenItsParticlesAreTurned) {
   const std::vector<Vec3f> up = drift(Quatf::Identity());
   const std::vector<Vec3f> down = drift(Quatf(0, 1, 0, 0));
   ASSERT_EQ(up.size(), down.size());
-  float apart = 0;
-  for (std::size_t i = 0; i < up.size(); ++i) apart = std::max(apart, (up[i] - down[i]).norm());
-  EXPECT_GT(apart, 0.02f);
+  float distance = 0;
+  for (std::size_t i = 0; i < up.size(); ++i)
+    distance = std::max(distance, (up[i] - down[i]).norm());
+  EXPECT_GT(distance, 0.02f);
 }
 
 TEST(Turbulence, GrowsInShearToItsBalanceAndDecaysInStillAir) {

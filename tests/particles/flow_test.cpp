@@ -1,4 +1,4 @@
-// A flow that is linear in space is what it was said to be everywhere, its gradient included.
+// Tests that a flow that is linear in space is exact at every point, its gradient included.
 #include "solver/particles/flow.h"
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace sunder::solver {
 namespace {
 
-/// u = A·(p − origin), at each face's centre.
+/// Flow with u = A·(p − origin) at each face's centre.
 struct LinearFlow : Flow {
   explicit LinearFlow(const Mat3f& A, double cell_m = 0.25) : Flow({12, 10, 8}) {
     grid_.origin_W = Vec3(1, -2, 3);
@@ -37,20 +37,20 @@ struct LinearFlow : Flow {
   }
 };
 
-Mat3f some_slope() {
+Mat3f some_gradient() {
   Mat3f A;
   A << 1, 2, -3, 5, -7, 11, -13, 17, 19;
   return A;
 }
 
-/// Further than half a cell from the grid's sides where `rim` is a tenth.
+/// Returns a random point; with `rim` = 0.1, more than half a cell from the sides of the grid.
 Vec3 random_point(Random& random, const Grid& grid, double rim = 0) {
   const auto uniform = [&] { return random.uniform(rim, 1 - rim); };
   const Vec3 part(uniform(), uniform(), uniform());
   return grid.origin_W + part.cwiseProduct(grid.extent_m());
 }
 
-TEST(Lattice, TheLargestInARowIsFoundWhereverItIs) {
+TEST(Lattice, TheLargestMagnitudeOfARowIsFoundAtAnyIndex) {
   for (int count = 1; count <= 19; ++count) {
     for (int at = 0; at < count; ++at) {
       std::vector<float> row(static_cast<std::size_t>(count), 1.0f);
@@ -61,7 +61,7 @@ TEST(Lattice, TheLargestInARowIsFoundWhereverItIs) {
 }
 
 TEST(Flow, HasTheGradientOfALinearField) {
-  const Mat3f A = some_slope();
+  const Mat3f A = some_gradient();
   const LinearFlow flow(A);
   for (const Vec3i& cell : {Vec3i(1, 1, 1), Vec3i(5, 4, 3), Vec3i(12, 10, 8)}) {
     const FlowGradient gradient = flow.gradient(cell);
@@ -72,13 +72,13 @@ TEST(Flow, HasTheGradientOfALinearField) {
 }
 
 TEST(Flow, IsExactBetweenTheFacesOfALinearFieldAndZeroBeyondThem) {
-  const Mat3f A = some_slope();
+  const Mat3f A = some_gradient();
   const LinearFlow flow(A);
   Random random(3);
   for (int i = 0; i < 100; ++i) {
     const Vec3 point = random_point(random, flow.grid());
-    const Vec3f wanted = A * (point - flow.grid().origin_W).cast<float>();
-    ASSERT_LE((flow.velocity(point.cast<float>()) - wanted).norm(), 1e-3f) << point;
+    const Vec3f expected = A * (point - flow.grid().origin_W).cast<float>();
+    ASSERT_LE((flow.velocity(point.cast<float>()) - expected).norm(), 1e-3f) << point;
   }
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 beyond = flow.grid().extent_m()[axis] * Vec3::Unit(axis);
@@ -89,7 +89,7 @@ TEST(Flow, IsExactBetweenTheFacesOfALinearFieldAndZeroBeyondThem) {
 }
 
 TEST(Flow, IsTheSameOnAnotherGridWithinIt) {
-  const Mat3f A = some_slope();
+  const Mat3f A = some_gradient();
   const LinearFlow flow(A);
   Grid finer = flow.grid();
   finer.cell_m = 0.15;
@@ -98,15 +98,15 @@ TEST(Flow, IsTheSameOnAnotherGridWithinIt) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     const Vec3 point = random_point(random, finer, 0.1);
-    const Vec3f wanted = A * (point - flow.grid().origin_W).cast<float>();
-    ASSERT_LE((other.velocity(point.cast<float>()) - wanted).norm(), 1e-3f) << point;
+    const Vec3f expected = A * (point - flow.grid().origin_W).cast<float>();
+    ASSERT_LE((other.velocity(point.cast<float>()) - expected).norm(), 1e-3f) << point;
   }
 }
 
-TEST(Flow, DivergesByTheTraceOfItsSlope) {
+TEST(Flow, HasTheDivergenceOfItsGradientsTrace) {
   const Mat3f stretch = Vec3f(1, 2, -4).asDiagonal();
   const LinearFlow flow(stretch);
-  // The fastest lower face of a cell: z's is at most 7 cells of 0.25 m from the corner.
+  // The largest velocity is on z's lower faces, at most 7 cells of 0.25 m from the corner.
   EXPECT_NEAR(flow.divergence(), 0.25f * 1 / (4 * 7 * 0.25f), 1e-5f);
   EXPECT_EQ(LinearFlow(Mat3f::Zero()).divergence(), 0);
 }

@@ -1,4 +1,4 @@
-// The grid over obstacles is a short cut: what a sphere meets is what it meets among all of them.
+// Tests that the obstacle grid has the contacts of a search over all obstacles.
 #include "solver/particles/obstacle_grid.h"
 
 #include <array>
@@ -21,7 +21,7 @@ Vec3 random_place(Random& random, double reach_m) {
   return reach_m * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
 }
 
-/// Boxes and balls from a centimetre to several metres, some of which move and turn.
+/// Adds boxes and balls from a centimetre to several metres, some of which move and rotate.
 void scatter(Random& random, TestObstacles& obstacles) {
   for (int i = 0; i < 300; ++i) {
     const double size_m = 0.02 * std::exp2(random.uniform(0, 6));
@@ -36,77 +36,81 @@ void scatter(Random& random, TestObstacles& obstacles) {
   }
 }
 
-void expect_touches_of_all(Random& random, const ObstacleGrid& grid, std::size_t shapes,
-                           double apart_m, double way_m, std::size_t count = 8) {
+void expect_contacts_of_all(Random& random, const ObstacleGrid& grid, std::size_t shapes,
+                            double apart_m, double path_m, std::size_t count = 8) {
   ObstacleGrid::Near near, all;
   all.shapes.resize(shapes);
   std::iota(all.shapes.begin(), all.shapes.end(), 0u);
   int touched = 0;
   for (int round = 0; round < 100; ++round) {
-    std::vector<SpherePath> ways(count);
+    std::vector<SpherePath> paths(count);
     const Vec3 place = random_place(random, 6);
-    for (SpherePath& way : ways) {
-      way.from = place + random_place(random, apart_m);
-      way.to = way.from + random_place(random, way_m);
-      way.radius_m = 0.02 * random.uniform();
-      way.duration_s = kDt;
+    for (SpherePath& path : paths) {
+      path.from = place + random_place(random, apart_m);
+      path.to = path.from + random_place(random, path_m);
+      path.radius_m = 0.02 * random.uniform();
+      path.duration_s = kDt;
     }
-    std::vector<std::optional<SphereContact>> found(count), wanted(count);
-    grid.find(ways, near);
-    grid.sweep(ways, near, found);
-    grid.sweep(ways, all, wanted);
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      ASSERT_EQ(found[i].has_value(), wanted[i].has_value()) << round << ", way " << i;
+    std::vector<std::optional<SphereContact>> found(count), expected(count);
+    grid.find(paths, near);
+    grid.sweep(paths, near, found);
+    grid.sweep(paths, all, expected);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      ASSERT_EQ(found[i].has_value(), expected[i].has_value()) << round << ", way " << i;
       if (!found[i]) continue;
       ++touched;
-      ASSERT_EQ(found[i]->time, wanted[i]->time) << round << ", way " << i;
-      if (wanted[i]->time == 0) continue;  // it may start inside several
-      ASSERT_EQ(found[i]->body, wanted[i]->body) << round << ", way " << i;
+      ASSERT_EQ(found[i]->time, expected[i]->time) << round << ", way " << i;
+      if (expected[i]->time == 0) continue;  // The sphere may start inside several obstacles.
+      ASSERT_EQ(found[i]->body, expected[i]->body) << round << ", way " << i;
     }
   }
   EXPECT_GT(touched, 20);
   EXPECT_LT(touched, 98 * static_cast<int>(count));
 }
 
-TEST(ObstacleGrid, FindsWhatIsMetAmongAllObstacles) {
+TEST(ObstacleGrid, FindsTheContactsOfASearchOverAllObstacles) {
   Random random(5);
   TestObstacles obstacles;
   scatter(random, obstacles);
   ObstacleGrid grid;
   grid.build(obstacles.view(), kDt, kEverywhere, ObstacleGrid::Which::kAll);
-  expect_touches_of_all(random, grid, obstacles.shapes.size(), 0.2, 0.2);  // looked up at once
-  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 0.5);    // each by itself
+  // All paths are looked up together.
+  expect_contacts_of_all(random, grid, obstacles.shapes.size(), 0.2, 0.2);
+  // Each path is looked up by itself.
+  expect_contacts_of_all(random, grid, obstacles.shapes.size(), 3, 0.5);
 }
 
-TEST(ObstacleGrid, LooksAlongALongWayOnly) {
+TEST(ObstacleGrid, SearchesOnlyAlongALongPath) {
   Random random(6);
   TestObstacles obstacles;
   for (int i = 0; i < 4000; ++i)
     obstacles.add_box(random_place(random, 12), Vec3::Constant(0.1), Quat::Identity());
   ObstacleGrid grid;
   grid.build(obstacles.view(), kDt, kEverywhere, ObstacleGrid::Which::kAll);
-  const SpherePath way{Vec3::Constant(-30), Vec3::Constant(30), 0.01, kDt};
+  const SpherePath path{Vec3::Constant(-30), Vec3::Constant(30), 0.01, kDt};
   ObstacleGrid::Near near;
-  grid.find({&way, 1}, near);
+  grid.find({&path, 1}, near);
   EXPECT_LT(near.shapes.size(), 300u);
-  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 6);
-  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 20, 1);
-  expect_touches_of_all(random, grid, obstacles.shapes.size(), 3, 300);  // longer than all parts
+  expect_contacts_of_all(random, grid, obstacles.shapes.size(), 3, 6);
+  expect_contacts_of_all(random, grid, obstacles.shapes.size(), 3, 20, 1);
+  // Paths longer than all parts.
+  expect_contacts_of_all(random, grid, obstacles.shapes.size(), 3, 300);
 }
 
 std::optional<SphereContact> touch_at_rest(const ObstacleGrid& grid, const Vec3& place,
                                            double radius_m) {
   ObstacleGrid::Near near;
-  const SpherePath way{place, place, radius_m, kDt};
+  const SpherePath path{place, place, radius_m, kDt};
   std::optional<SphereContact> touch;
-  grid.find({&way, 1}, near);
-  grid.sweep({&way, 1}, near, {&touch, 1});
+  grid.find({&path, 1}, near);
+  grid.sweep({&path, 1}, near, {&touch, 1});
   return touch;
 }
 
-TEST(ObstacleGrid, KnowsWhatHasPassedWithinTheStep) {
+TEST(ObstacleGrid, FindsABodyThatPassedWithinTheStep) {
   TestObstacles obstacles;
-  const Vec3 velocity(30, 0, 0);  // half a metre a step: its front went from 0.05 m to 0.55 m
+  // Half a metre per step: the box's front moved from 0.05 m to 0.55 m.
+  const Vec3 velocity(30, 0, 0);
   obstacles.set_velocity(obstacles.add_box(Vec3(0.5, 0, 0), Vec3(0.05, 0.3, 0.3)), velocity);
   const Vec3 place(0.25, 0, 0);
   ObstacleGrid grid;
@@ -118,7 +122,7 @@ TEST(ObstacleGrid, KnowsWhatHasPassedWithinTheStep) {
   EXPECT_LE((touch->velocity_W - velocity).norm(), 1e-4);
 }
 
-TEST(ObstacleGrid, HoldsOnlyWhatWasAskedFor) {
+TEST(ObstacleGrid, HasOnlyTheRequestedObstacles) {
   TestObstacles obstacles;
   obstacles.add_ball(Vec3::Zero(), 0.1);
   obstacles.set_velocity(obstacles.add_ball(Vec3(1, 0, 0), 0.1), Vec3(0, 0.1, 0));

@@ -1,4 +1,4 @@
-// Obstacles and faces for the tests of particles.
+// Test fixture: obstacles and emitting faces for particles.
 #pragma once
 
 #include <deque>
@@ -8,10 +8,10 @@
 
 namespace sunder {
 
-/// Bodies of one box or ball each, with the hulls they refer to.
+/// Bodies of one box or ball each, with the hulls that they refer to.
 class TestObstacles {
  public:
-  /// A box about its rest frame's origin; returns its index.
+  /// Adds a box about its rest frame's origin, and returns its index.
   std::size_t add_box(const Vec3& center, const Vec3& half,
                       const Quat& rotation = Quat::Identity()) {
     hulls_.push_back(make_box(-half, half));
@@ -30,7 +30,7 @@ class TestObstacles {
     bodies[body].velocity_W = velocity;
     bodies[body].moves = true;
   }
-  /// Moves what moves, as the solver would before particles advance.
+  /// Moves all bodies by their velocities, as the solver would before particles advance.
   void advance(double dt_s) {
     for (ObstacleBody& body : bodies) body.X_WB.position += dt_s * body.velocity_W;
   }

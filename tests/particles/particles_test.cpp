@@ -1,4 +1,4 @@
-// What debris and dust promise together, behind the seam.
+// Tests of debris and dust together, behind the Particles interface.
 #include <cmath>
 #include <cstring>
 
@@ -49,9 +49,9 @@ std::uint64_t hash_of(const Particles& particles) {
   return hash;
 }
 
-/// Chips and puffs among boxes of which some move; chips fall asleep, are woken, and some have
-/// no room. Returns a hash of every step.
-std::uint64_t hash_of_a_run(int thread_count) {
+/// Runs chips and dust among boxes, some of which move; chips fall asleep, are woken, and some are
+/// rejected at the limit. Returns a hash of every step.
+std::uint64_t run_and_hash(int thread_count) {
   set_threads(thread_count);
   DebrisAndDustOptions options = small_options();
   options.limits = {2500, 20000};
@@ -88,8 +88,8 @@ std::uint64_t hash_of_a_run(int thread_count) {
 
 TEST(Particles, AreTheSameBitsForOneTwoFourAndSevenThreads) {
   const int before = threads();
-  const std::uint64_t one = hash_of_a_run(1);
-  for (const int count : {2, 4, 7}) EXPECT_EQ(hash_of_a_run(count), one) << count;
+  const std::uint64_t one = run_and_hash(1);
+  for (const int count : {2, 4, 7}) EXPECT_EQ(run_and_hash(count), one) << count;
   set_threads(before);
 }
 
@@ -111,7 +111,7 @@ TEST(Particles, ComeFromAFaceByItsDensityAndRatio) {
   EXPECT_NEAR(mean.z(), 0, 0.05);
 }
 
-TEST(Particles, ComeFromEveryFaceEvenWhereRoomIsShort) {
+TEST(Particles, ComeFromEveryFaceEvenAtTheLimit) {
   DebrisAndDustOptions options = small_options();
   options.limits = {500, 500};
   auto particles = make_debris_and_dust(options);
@@ -139,7 +139,7 @@ TEST(Particles, OfManySmallFacesAreAsManyAsOfOneLargeFace) {
   EXPECT_NEAR(report.debris.emitted + report.dust.emitted, 1000, 100);
 }
 
-TEST(Particles, AreFewAndSlowWhereACrackStaysShutAndManyAndFastWhereABlowOpensIt) {
+TEST(Particles, AreFewAndSlowAtAClosedCrackAndManyAndFastAtOneOpenedByAnImpact) {
   const TestFace face(Vec3(0, 3, 0));
   std::uint32_t alive[3];
   double mean_m[3];
@@ -200,7 +200,7 @@ TEST(Particles, InheritTheMotionOfTheirSolid) {
   EXPECT_NEAR((double{mean.y()} - 3) / kDt, 5 + 2 * 10, 2.5);
 }
 
-TEST(Particles, AChipIsOnePieceOfDebrisThatMovesOn) {
+TEST(Particles, AChipIsOneParticleWithItsVelocity) {
   auto particles = make_debris_and_dust(small_options());
   DebrisPiece chip;
   chip.center_W = Vec3(1, 5, 2);
@@ -226,7 +226,7 @@ TEST(Particles, WithoutDustHaveNoAir) {
   EXPECT_GT(particles->report().air_cells, 0u);
 }
 
-/// Cells of the air after each of some numbers of puffs more, from two faces one above the other.
+/// Returns the air cells after each emission of that many more puffs, from one face above another.
 std::vector<std::uint32_t> cells_after(double apart_m, std::span<const double> more) {
   auto particles = make_debris_and_dust(small_options());
   const TestFace low(Vec3(0, 2, 0), 10), high(Vec3(0, 2 + apart_m, 0), 10);
@@ -242,7 +242,7 @@ std::vector<std::uint32_t> cells_after(double apart_m, std::span<const double> m
   return cells;
 }
 
-TEST(Particles, AFewHaveLittleAirAndMostAllOfIt) {
+TEST(Particles, HaveAirCellsByTheirNumber) {
   const auto cells = cells_after(8, std::vector<double>{100, 700, 3000});
   EXPECT_LE(cells[0], 32u * 16 * 32 / 8);
   EXPECT_GT(cells[1], cells[0]);
@@ -250,7 +250,7 @@ TEST(Particles, AFewHaveLittleAirAndMostAllOfIt) {
   EXPECT_EQ(cells[2], 32u * 16 * 32);
 }
 
-TEST(Particles, HaveNoMoreAirThanTheirCloudIsHigh) {
+TEST(Particles, HaveAirCellsUpToTheHeightOfTheirCloud) {
   EXPECT_EQ(cells_after(1, std::vector<double>{4000})[0], 32u * 8 * 32);
 }
 

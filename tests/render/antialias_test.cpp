@@ -1,4 +1,4 @@
-// Edges become smooth, everything else stays.
+// Tests of FXAA: slanted edges become smoother, everything else stays unchanged.
 #include "render/image/antialias.h"
 
 #include <cstdlib>
@@ -13,7 +13,7 @@ constexpr int kSide = 64;
 
 std::uint32_t grey(int level) { return 0x01010101u * static_cast<std::uint32_t>(level); }
 
-/// White where y < slope * x + 10, black elsewhere.
+/// Returns an image that is white where y < slope * x + 10, and black elsewhere.
 std::vector<std::uint32_t> slanted_edge(double slope) {
   std::vector<std::uint32_t> pixels;
   for (int y = 0; y < kSide; ++y) {
@@ -22,7 +22,7 @@ std::vector<std::uint32_t> slanted_edge(double slope) {
   return pixels;
 }
 
-/// Mean distance to the edge's true coverage, over the picture.
+/// Returns the mean difference from the edge's true coverage over the picture, from 0 to 255.
 double error_of(const Image& image, double slope) {
   double sum = 0;
   for (int y = 0; y < kSide; ++y) {
@@ -62,7 +62,7 @@ TEST(Antialias, AStraightEdgeStaysSharp) {
   for (int i = 0; i < kSide * kSide; ++i) pixels.push_back(grey(i / kSide < kSide / 2 ? 200 : 20));
   const Image image = apply_fxaa(pixels, kSide, kSide);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    ASSERT_NEAR(image.rgb[3 * i], pixels[i] & 255, 8) << "softened, but no stair to smooth";
+    ASSERT_NEAR(image.rgb[3 * i], pixels[i] & 255, 8) << "a straight edge was softened";
   }
 }
 

@@ -1,4 +1,4 @@
-// Cameras: where they look, and that they move without a jerk.
+// Tests of the cameras: their view at each time, and the smoothness of their motion.
 #include "render/camera.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60;
 
-/// A frame with a ball of that key and name at a place.
+/// Returns a frame without bodies, with the names house.0, house.1 and ball.
 SyntheticFrame frame_at(int index) {
   SyntheticFrame s;
   s.frame.index = static_cast<std::uint64_t>(index);
@@ -25,6 +25,7 @@ SyntheticFrame frame_at(int index) {
   return s;
 }
 
+/// Adds a ball with this key and index of a name.
 FrameBody& add_ball(SyntheticFrame& s, std::uint64_t key, std::uint32_t name, const Vec3& place,
                     double radius_m = 0.5) {
   s.add_ball(place, radius_m, Stuff::kSteel);
@@ -34,7 +35,7 @@ FrameBody& add_ball(SyntheticFrame& s, std::uint64_t key, std::uint32_t name, co
   return body;
 }
 
-TEST(Camera, WhatIsNoViewIsRefusedWithWhatIs) {
+TEST(Camera, AnUnknownViewIsRefusedWithTheAllowedOnes) {
   for (const char* wrong : {"", "orbti", "orbit:", "orbit:0", "orbit:x", "orbit:nan", "follow",
                             "follow:", "fixed:1", "auto:2"}) {
     try {
@@ -46,12 +47,12 @@ TEST(Camera, WhatIsNoViewIsRefusedWithWhatIs) {
   }
 }
 
-TEST(Camera, AFixedOneStaysWhereTheFramesAre) {
+TEST(Camera, AFixedCameraHasTheViewOfTheFrames) {
   const auto camera = make_camera("fixed");
   EXPECT_EQ(camera->at(frame_at(7).frame).eye_W, Vec3(0, 3, 12));
 }
 
-TEST(Camera, AnOrbitGoesOnceRoundAtOneHeightAndDistance) {
+TEST(Camera, AnOrbitGoesRoundAtConstantHeightAndDistance) {
   const auto camera = make_camera("orbit:2");
   const auto back = make_camera("orbit:-2");
   const auto eye = [&](Camera& c, int index) { return c.at(frame_at(index).frame).eye_W; };
@@ -62,14 +63,14 @@ TEST(Camera, AnOrbitGoesOnceRoundAtOneHeightAndDistance) {
   EXPECT_LT((eye(*camera, 120) - Vec3(0, 3, 12)).norm(), 1e-9);
 }
 
-TEST(Camera, APathGoesThroughItsKeysWithoutAJerk) {
+TEST(Camera, APathGoesThroughItsKeysSmoothly) {
   const std::vector<ViewKey> keys{{0.5, Vec3(0, 2, 10), std::nullopt, std::nullopt},
                                   {1, Vec3(10, 2, 0), Vec3(0, 2, 0), 0.5},
                                   {2, Vec3(0, 8, -10), std::nullopt, std::nullopt}};
   const auto camera = make_camera(keys);
   const auto at = [&](int index) { return camera->at(frame_at(index).frame); };
   EXPECT_EQ(at(0).eye_W, Vec3(0, 2, 10)) << "at the first key until then";
-  EXPECT_EQ(at(0).target_W, Vec3(0, 1, 0)) << "what no key says is as the frames have it";
+  EXPECT_EQ(at(0).target_W, Vec3(0, 1, 0)) << "without a key the target is that of the frames";
   EXPECT_LT((at(60).eye_W - Vec3(10, 2, 0)).norm(), 1e-9);
   EXPECT_LT((at(60).target_W - Vec3(0, 2, 0)).norm(), 1e-9);
   EXPECT_NEAR(at(90).fov_rad, 0.5, 1e-9) << "kept from the key before";
@@ -82,7 +83,7 @@ TEST(Camera, APathGoesThroughItsKeysWithoutAJerk) {
   }
 }
 
-TEST(Camera, AFollowerKeepsWhatItFollowsInTheMiddleFromAsFarAsBefore) {
+TEST(Camera, AFollowingCameraKeepsItsBodyInTheMiddleAtConstantDistance) {
   const auto camera = make_camera("follow:ball");
   View view;
   for (int i = 0; i < 120; ++i) {
@@ -95,7 +96,7 @@ TEST(Camera, AFollowerKeepsWhatItFollowsInTheMiddleFromAsFarAsBefore) {
   EXPECT_LT((view.eye_W - view.target_W - Vec3(0, 2, 12)).norm(), 1e-9);
 }
 
-TEST(Camera, AFollowerGoesOnWithTheLargestPieceAndWithoutAJerk) {
+TEST(Camera, AFollowingCameraContinuesSmoothlyWithTheLargestPiece) {
   const auto camera = make_camera("follow:house");
   constexpr int kBreak = 30;
   Vec3 before_W = Vec3::Zero(), step_before_W = Vec3::Zero();
@@ -109,8 +110,8 @@ TEST(Camera, AFollowerGoesOnWithTheLargestPieceAndWithoutAJerk) {
     FrameBody& large = add_ball(s, 6, 1, {1 + 0.1 * since, 2, 0}, 1);
     large.previous_key = i == kBreak ? 1 : 6;
     large.velocity_W = {6, 0, 0};
-    add_ball(s, 7, 2, {0, 9, 0}, 8);  // larger, but no part of it
-    // It breaks into two, of which the larger is not the older, and flies off.
+    add_ball(s, 7, 2, {0, 9, 0}, 8);  // larger, but no piece of the house
+    // The house breaks into two pieces. The larger one has the higher key and flies off.
     if (i < kBreak) {
       s.frame.bodies.resize(1);
       s.frame.instances.resize(1);
@@ -126,20 +127,20 @@ TEST(Camera, AFollowerGoesOnWithTheLargestPieceAndWithoutAJerk) {
     if (i > 0) step_before_W = view.target_W - before_W;
     before_W = view.target_W;
   }
-  EXPECT_LT((view.target_W - Vec3(1 + 0.1 * 209, 2, 0)).norm(), 0.01) << "it has caught up";
-  EXPECT_LT(most_m, 0.025) << "its pace changes little from frame to frame";
+  EXPECT_LT((view.target_W - Vec3(1 + 0.1 * 209, 2, 0)).norm(), 0.01) << "the camera has caught up";
+  EXPECT_LT(most_m, 0.025) << "its speed changes little from frame to frame";
 }
 
-TEST(Camera, AFollowerOfWhatIsNotThereYetWaits) {
+TEST(Camera, AFollowingCameraKeepsItsViewUntilTheBodyAppears) {
   const auto camera = make_camera("follow:ball");
   EXPECT_EQ(camera->at(frame_at(0).frame).target_W, Vec3(0, 1, 0));
   SyntheticFrame s = frame_at(1);
   add_ball(s, 9, 2, {8, 1, 0});
   const Vec3 target_W = camera->at(s.frame).target_W;
-  EXPECT_LT((target_W - Vec3(0, 1, 0)).norm(), 0.5) << "it glides there";
+  EXPECT_LT((target_W - Vec3(0, 1, 0)).norm(), 0.5) << "the camera moves there smoothly";
 }
 
-TEST(Camera, ANameThatNobodyHasIsRefusedWithThoseThereAre) {
+TEST(Camera, AnUnknownNameIsRefusedWithTheNamesOfTheScene) {
   try {
     make_camera("follow:tower")->at(frame_at(0).frame);
     ADD_FAILURE();
@@ -149,7 +150,7 @@ TEST(Camera, ANameThatNobodyHasIsRefusedWithThoseThereAre) {
   }
 }
 
-TEST(Camera, AnAutomaticOneStaysWhereNothingMovesAndTurnsToWhatDoes) {
+TEST(Camera, AnAutomaticCameraStaysWhileNothingMovesAndTurnsTowardsMotion) {
   const auto camera = make_camera("auto");
   SyntheticFrame still = frame_at(0);
   add_ball(still, 1, 0, {0, 1, 0}, 2);
@@ -162,7 +163,7 @@ TEST(Camera, AnAutomaticOneStaysWhereNothingMovesAndTurnsToWhatDoes) {
   for (int i = 60; i < 600; ++i) {
     SyntheticFrame s = frame_at(i);
     add_ball(s, 1, 0, {0, 1, 0}, 2);
-    for (int b = 0; b < 2; ++b) {  // two balls roll about a place to the right
+    for (int b = 0; b < 2; ++b) {  // two balls roll about a point to the right
       add_ball(s, 2 + b, 2, {10, 1, b == 0 ? -1.0 : 1.0}, 1).velocity_W = {0, 0, 5};
     }
     view = camera->at(s.frame);
@@ -177,7 +178,7 @@ TEST(Camera, AnAutomaticOneStaysWhereNothingMovesAndTurnsToWhatDoes) {
       << "from the same side";
 }
 
-TEST(Camera, NoneGoesBelowTheGround) {
+TEST(Camera, NoCameraGoesBelowTheGround) {
   const auto camera = make_camera("follow:ball");
   SyntheticFrame s = frame_at(0);
   s.frame.view.eye_W = {0, -3, 12};

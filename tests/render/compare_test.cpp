@@ -1,4 +1,4 @@
-// What passes as the same picture and what does not: the faults that calibrated the thresholds.
+// Tests of image comparison with the faults that its thresholds are calibrated on.
 #include "render/image/compare.h"
 
 #include <algorithm>
@@ -73,14 +73,14 @@ TEST(Compare, AFaultOfSixBySixPixelsFails) {
   EXPECT_EQ(difference.worst_window_pixels, 36);
   EXPECT_LE(difference.worst_window_x, 200);
   EXPECT_GE(difference.worst_window_x + 32, 206);
-  EXPECT_LT(difference.flip_mean, 0.01) << "a mean over the picture alone would not see it";
+  EXPECT_LT(difference.flip_mean, 0.01) << "a mean over the picture alone would miss it";
   EXPECT_FALSE(difference.passes({}));
 }
 
 TEST(Compare, TwoPercentMoreBrightnessFails) {
   const Image image = changed([](std::size_t, int v) { return (v * 102 + 50) / 100; });
   const Difference difference = compare(reference(), image);
-  EXPECT_LE(difference.worst_window_pixels, 24) << "a count of pixels alone would not see it";
+  EXPECT_LE(difference.worst_window_pixels, 24) << "a count of pixels alone would miss it";
   EXPECT_FALSE(difference.passes({})) << difference.flip_mean;
 }
 
@@ -112,7 +112,7 @@ TEST(Compare, AnotherSizeFails) {
   EXPECT_FALSE(difference.passes({}));
 }
 
-TEST(Compare, FlipIsNothingForTheSameAndMuchForOpposites) {
+TEST(Compare, FlipIsNearZeroForNearlyEqualPicturesAndNearOneForOpposites) {
   Image black{64, 64, std::vector<std::uint8_t>(3 * 64 * 64, 0)};
   Image white{64, 64, std::vector<std::uint8_t>(3 * 64 * 64, 255)};
   Image nearly = black;

@@ -1,4 +1,4 @@
-// Light, exposure, samples and shutter: what a film asks of a picture.
+// Tests of light, exposure, samples per picture and motion blur.
 #include <map>
 #include <memory>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr int kWidth = 320, kHeight = 180;
 
 Image drawn(const Frame& frame, int samples = 1, const Frame* before = nullptr) {
-  static std::map<int, std::unique_ptr<Renderer>> renderers;  // they take long to make
+  static std::map<int, std::unique_ptr<Renderer>> renderers;  // a renderer is slow to make
   std::unique_ptr<Renderer>& renderer = renderers[samples];
   if (!renderer) {
     RenderOptions options{.width = kWidth, .height = kHeight};
@@ -25,7 +25,7 @@ Image drawn(const Frame& frame, int samples = 1, const Frame* before = nullptr) 
   return renderer->draw(frame, before);
 }
 
-/// Red, green and blue, over a part of the picture.
+/// Returns the mean red, green and blue over a part of the picture.
 Vec3 mean(const Image& image, int left = 0, int top = 0, int right = kWidth, int bottom = kHeight) {
   Vec3 sum = Vec3::Zero();
   for (int y = top; y < bottom; ++y) {
@@ -37,7 +37,7 @@ Vec3 mean(const Image& image, int left = 0, int top = 0, int right = kWidth, int
   return sum / ((right - left) * (bottom - top));
 }
 
-/// A ball before the sky.
+/// Returns a frame of a ball at `center` in front of the sky.
 Frame ball_at(const Vec3& center) {
   SyntheticFrame s;
   s.add_ball({0, 3, 0}, 0.5, Stuff::kConcrete);
@@ -49,7 +49,7 @@ Frame ball_at(const Vec3& center) {
   return s.frame;
 }
 
-TEST(Light, ExposureMakesAllOfItBrighterAndNoneMakesItBlack) {
+TEST(Light, ExposureBrightensThePictureAndZeroMakesItBlack) {
   Frame frame = house_frame(50);
   double before = -1;
   for (const double exposure : {0.0, 0.3, 1.0, 2.0}) {
@@ -69,7 +69,7 @@ TEST(Light, SunAndSkyHaveColorsAndStrengthsOfTheirOwn) {
   frame.view.sun_strength = 0;
   const Vec3 overcast = mean(drawn(frame));
   EXPECT_LT(overcast.sum(), day.sum());
-  EXPECT_GT(overcast.z() / overcast.x(), day.z() / day.x()) << "what is left is blue";
+  EXPECT_GT(overcast.z() / overcast.x(), day.z() / day.x()) << "the light of the sky is blue";
   frame.view.sun_strength = 1;
   frame.view.sky_strength = 0;
   frame.view.sun_color = Vec3f(3, 0, 0);
@@ -90,7 +90,7 @@ TEST(Samples, AreTheSamePictureWithSmootherEdges) {
   EXPECT_LT(compare(more, many).flip_mean, 0.8 * compare(more, one).flip_mean);
 }
 
-TEST(Shutter, BlursWhatMovesAlongItsWayAndNothingElse) {
+TEST(Shutter, BlursMovingBodiesAlongTheirPathAndNothingElse) {
   const Frame before = ball_at({-2, 4, 0});
   Frame now = ball_at({2, 4, 0});
   now.time_s = before.time_s + 1.0 / 60;
@@ -102,7 +102,7 @@ TEST(Shutter, BlursWhatMovesAlongItsWayAndNothingElse) {
   const auto off = [&](const Image& image, int left, int right) {
     return (mean(image, left, 60, right, 120) - mean(empty, left, 60, right, 120)).norm();
   };
-  // The ball ends right of the middle; the middle it has only passed.
+  // The ball ends right of the middle and only passes through the middle.
   EXPECT_LT(off(sharp, 150, 170), 0.5);
   EXPECT_GT(off(blurred, 150, 170), 1);
   const int at = 160 + 40;
@@ -110,25 +110,26 @@ TEST(Shutter, BlursWhatMovesAlongItsWayAndNothingElse) {
   EXPECT_LT((mean(blurred, 0, 140) - mean(empty, 0, 140)).norm(), 0.5) << "the ground stays";
   EXPECT_LT(compare(drawn(now, 1, &before), drawn(ball_at({2, 4, 0}))).flip_mean, 0.02);
   now.bodies[0].velocity_W = Vec3(4 * 60, 0, 0);
-  EXPECT_LT(compare(drawn(now, 8), blurred).flip_mean, 0.01) << "as it moves, where none is before";
+  EXPECT_LT(compare(drawn(now, 8), blurred).flip_mean, 0.01)
+      << "blurred by velocity without a frame before";
 }
 
-TEST(UpTo, BodiesGoStraightAndTurnEvenlyFromTheFrameBefore) {
+TEST(FrameInterval, BodiesMoveStraightAndTurnEvenlyFromTheFrameBefore) {
   Frame first = ball_at({0, 3, 0}), second = ball_at({4, 3, 0});
   second.time_s = first.time_s + 1.0 / 60;
   second.bodies[0].X_WB.rotation = Quat(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
   second.view.eye_W += Vec3(0, 2, 0);
-  const FrameInterval way = up_to(second, &first);
-  const std::shared_ptr<Frame> half = between(way, 0.5);
+  const FrameInterval interval = up_to(second, &first);
+  const std::shared_ptr<Frame> half = between(interval, 0.5);
   EXPECT_LT((half->bodies[0].X_WB.position - Vec3(2, 3, 0)).norm(), 1e-12);
   EXPECT_NEAR(half->bodies[0].X_WB.rotation.angularDistance(Quat::Identity()), 0.2, 1e-9);
   EXPECT_EQ(half->view.eye_W, Vec3(first.view.eye_W + Vec3(0, 1, 0)));
-  const Pose end = between(way, 1)->bodies[0].X_WB, &now = second.bodies[0].X_WB;
+  const Pose end = between(interval, 1)->bodies[0].X_WB, &now = second.bodies[0].X_WB;
   EXPECT_EQ(end.position, now.position);
   EXPECT_LT(end.rotation.angularDistance(now.rotation), 1e-15);
 }
 
-TEST(UpTo, WhatIsNewGoesBackAsFastAsItMoves) {
+TEST(FrameInterval, ANewBodyIsExtrapolatedBackByItsVelocity) {
   const Frame first = ball_at({0, 3, 0});
   Frame second = ball_at({4, 3, 0});
   second.time_s = first.time_s + 0.1;
@@ -143,13 +144,13 @@ TEST(UpTo, WhatIsNewGoesBackAsFastAsItMoves) {
   EXPECT_NEAR(alone->bodies[0].X_WB.position.x(), 4 - 10 * 0.5 / 60, 1e-12);
 }
 
-TEST(UpTo, DebrisThatIsTheSameGoesStraightAndOtherStays) {
+TEST(FrameInterval, MatchedDebrisMovesStraightAndUnmatchedDebrisStays) {
   Frame first = ball_at({0, 3, 0}), second = first;
   second.time_s = first.time_s + 1.0 / 60;
   FrameDebris chip;
   chip.radius_m = 0.1f;
   first.debris = {chip, chip};
-  chip.position_W = Vec3f(1.5f, 0, 0);  // from 2 m on it is taken for another
+  chip.position_W = Vec3f(1.5f, 0, 0);  // debris that moves 2 m or more is not matched
   second.debris = {chip, chip};
   second.debris[1].radius_m = 0.2f;
   const std::shared_ptr<Frame> half = between(up_to(second, &first), 0.5);

@@ -1,4 +1,4 @@
-// The page says what failed, first, and how to accept it.
+// Tests of the report page of golden tests.
 #include "render/image/golden_report.h"
 
 #include <vector>
@@ -25,9 +25,9 @@ GoldenResult picture(const std::string& name, std::uint8_t reference, std::uint8
   return p;
 }
 
-std::size_t count(const std::string& text, const std::string& what) {
+std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
   return n;
 }
 
@@ -35,14 +35,15 @@ TEST(GoldenReport, FailuresComeFirstWithTheCommandThatAcceptsThem) {
   const std::vector<GoldenResult> pictures = {picture("good", 90, 90), picture("b<a>d", 90, 200)};
   const std::string page = golden_report(pictures);
   EXPECT_LT(page.find("b&lt;a>d"), page.find("good"));
-  EXPECT_EQ(count(page, "sunder golden accept"), 1u) << "what passed needs no accepting";
+  EXPECT_EQ(count(page, "sunder golden accept"), 1u) << "a picture that passed has no command";
   EXPECT_EQ(count(page, "class=\"over\""), 2u) << "both figures are over their limits";
 }
 
-TEST(GoldenReport, ThePageHoldsItsPicturesAndNeedsNothingElse) {
+TEST(GoldenReport, ThePageEmbedsItsPicturesAndLoadsNothingElse) {
   const std::vector<GoldenResult> pictures = {picture("good", 90, 90), picture("bad", 90, 200)};
   const std::string page = golden_report(pictures);
-  EXPECT_EQ(count(page, "data:image/png;base64,"), 4u) << "one where all is the same, else three";
+  EXPECT_EQ(count(page, "data:image/png;base64,"), 4u)
+      << "one image where both are equal, else three";
   EXPECT_EQ(count(page, "http"), 0u);
   EXPECT_EQ(tests::markup_mistake(page), "");
   for (const char* part : {"id=\"lens\"", "image-rendering: pixelated", "function magnify(",
@@ -51,7 +52,7 @@ TEST(GoldenReport, ThePageHoldsItsPicturesAndNeedsNothingElse) {
   }
 }
 
-TEST(GoldenReport, AMissingBaselineIsShownAsWhatIsDrawnNow) {
+TEST(GoldenReport, AMissingBaselineIsReplacedByTheNewPicture) {
   GoldenResult p;
   p.name = "new";
   p.actual = flat(50);

@@ -1,4 +1,4 @@
-// PNG files.
+// Tests of PNG files.
 #include "render/image/image.h"
 
 #include <fstream>
@@ -21,7 +21,7 @@ Image noise(int width, int height) {
   return image;
 }
 
-TEST(Png, WhatIsWrittenIsRead) {
+TEST(Png, IsReadAsItWasWritten) {
   const TestFolder folder;
   const Image image = noise(37, 21);
   write_png(folder / "a.png", image);
@@ -42,7 +42,7 @@ TEST(Png, AFileThatIsNoPngIsRefusedByName) {
   }
 }
 
-TEST(Png, APlaceThatCannotBeWrittenIsAnErrorAndNothingIsLeft) {
+TEST(Png, AnUnwritablePathIsAnErrorAndLeavesNoFile) {
   const TestFolder folder;
   EXPECT_THROW(write_png("/proc/no/such/folder.png", noise(4, 4)), FileError);
   std::filesystem::create_directories(folder / "taken.png" / "inside");

@@ -1,5 +1,4 @@
-// What is known of each pixel besides its colour, and pictures that what is behind them shows
-// through.
+// Tests of layers (depth, normals and ids of each pixel) and of transparent pictures.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -18,7 +17,7 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 90;
 
-/// A wall 2 m wide before the eye, 9 m away, its face towards it.
+/// Returns a frame of a wall 2 m wide, 9 m in front of the eye and facing it.
 Frame wall() {
   SyntheticFrame s;
   s.add_box({-1, 0, -1}, {1, 4, 1}, Stuff::kConcrete);
@@ -41,7 +40,7 @@ std::vector<std::uint16_t> at(const Image16& image, int x, int y) {
   return {from, from + image.channels};
 }
 
-TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
+TEST(Layers, HaveDepthNormalAndIdOfEveryPixel) {
   Renderer renderer(with_layers({"depth", "normals", "ids"}));
   renderer.draw(wall());
   const std::vector<Layer>& layers = renderer.layers();
@@ -50,7 +49,7 @@ TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
   double far_m = 0;
   for (const auto& [key, word] : depth.words)
     if (key == "far_m") far_m = std::stod(word);
-  EXPECT_EQ(far_m, 64) << "at least four times as far as what it looks at";
+  EXPECT_EQ(far_m, 64) << "at least four times the distance of the target";
   const int x = kWidth / 2, y = kHeight / 2;
   EXPECT_NEAR(at(depth, x, y)[0] / 65535.0 * far_m, 9, 0.01);
   EXPECT_EQ(at(depth, 2, 2)[0], 65535) << "the sky";
@@ -64,7 +63,7 @@ TEST(Layers, SayHowFarWhichWayAndOfWhatEveryPixelIs) {
   EXPECT_EQ(at(ids, 2, kHeight - 2), (std::vector<std::uint16_t>{0, 0, 0})) << "the ground";
 }
 
-TEST(Layers, OfDepthAreOfOneScaleWhereverTheCameraGoes) {
+TEST(Layers, OfDepthKeepTheirScaleWhenTheCameraMoves) {
   Renderer renderer(with_layers({"depth"}));
   Frame frame = wall();
   renderer.draw(frame);
@@ -93,9 +92,9 @@ TEST(Layers, OfDepthInMetresAreFloatsThatOtherProgramsRead) {
   float stored = 0;
   std::memcpy(&stored, &bytes[bytes.size() - rows + kHeight / 2 * (8 + row) + 8 + row / 2], 4);
   EXPECT_EQ(stored, metres[middle]);
-  std::uint64_t place = 0;  // of the last row, by the table
-  std::memcpy(&place, &bytes[bytes.size() - rows - 8], 8);
-  EXPECT_EQ(place, bytes.size() - 8 - row);
+  std::uint64_t offset = 0;  // of the last row, from the table
+  std::memcpy(&offset, &bytes[bytes.size() - rows - 8], 8);
+  EXPECT_EQ(offset, bytes.size() - 8 - row);
   if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) return;
   const std::string raw = (folder / "raw").string();
   ASSERT_EQ(std::system(("ffmpeg -v error -i " + (folder / "wall_depth_m.exr").string() +
@@ -107,7 +106,7 @@ TEST(Layers, OfDepthInMetresAreFloatsThatOtherProgramsRead) {
   EXPECT_EQ(std::memcmp(decoded.data(), metres.data(), decoded.size()), 0);
 }
 
-TEST(Layers, HaveWhatIsPaintedToo) {
+TEST(Layers, IncludeTexturedSurfaces) {
   Frame frame = wall();
   auto mesh = std::make_shared<Mesh>(*frame.meshes->front());
   for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kFirstPaint;
@@ -119,7 +118,7 @@ TEST(Layers, HaveWhatIsPaintedToo) {
             (std::vector<std::uint16_t>{70001 - 65536, 1, 0}));
 }
 
-TEST(Layers, DoNotChangeThePictureNorDoesItsNumberOfSamplesChangeThem) {
+TEST(Layers, DoNotChangeThePictureAndDoNotDependOnItsSamples) {
   const Frame frame = wall();
   Renderer plain(with_layers({})), layered(with_layers({"ids", "depth"}));
   EXPECT_TRUE(plain.layers().empty());
@@ -135,7 +134,7 @@ TEST(Layers, DoNotChangeThePictureNorDoesItsNumberOfSamplesChangeThem) {
   EXPECT_EQ(sampled.layers()[0].image.values, layered.layers()[1].image.values);
 }
 
-TEST(Layers, AnUnknownOneIsRefusedWithWhatIsAllowed) {
+TEST(Layers, AnUnknownLayerIsRefusedWithTheAllowedOnes) {
   try {
     Renderer renderer(with_layers({"depth", "smell"}));
     ADD_FAILURE();
@@ -146,7 +145,7 @@ TEST(Layers, AnUnknownOneIsRefusedWithWhatIsAllowed) {
   }
 }
 
-TEST(Transparent, OnlyWhatIsThereCoversAnything) {
+TEST(Transparent, PicturesHaveAlphaOnlyWhereThereAreObjects) {
   RenderOptions options{.width = kWidth, .height = kHeight};
   options.transparent = true;
   options.samples = 4;
@@ -174,7 +173,7 @@ TEST(Transparent, OnlyWhatIsThereCoversAnything) {
   glass.meshes = pane.frame.meshes;
   const std::uint8_t through = alpha(renderer.draw(glass), kWidth / 2, kHeight / 2);
   EXPECT_GT(through, 5);
-  EXPECT_LT(through, 200) << "and so does glass";
+  EXPECT_LT(through, 200) << "glass covers a part";
 }
 
 TEST(PictureSink, WritesLayersBesideThePictureAndRefusesThemForAVideo) {
@@ -186,7 +185,7 @@ TEST(PictureSink, WritesLayersBesideThePictureAndRefusesThemForAVideo) {
   sink->take(std::make_shared<Frame>(wall()));
   sink->finish();
   const Image picture = read_png(folder / "wall.png");
-  const Image depth = read_png(folder / "wall_depth.png");  // its higher bytes
+  const Image depth = read_png(folder / "wall_depth.png");  // higher bytes of the 16-bit depths
   EXPECT_EQ(picture.width, kWidth);
   ASSERT_EQ(depth.height, kHeight);
   EXPECT_EQ(depth.rgb[0], 255);

@@ -1,4 +1,4 @@
-// What pictures show of what things are made of: a file's paints, glass, metal, white stone.
+// Tests of how surfaces are drawn: appearances from mesh files, glass, metal and white stone.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Vec3f pixel(const Image& image, int x, int y) {
   return Vec3f(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);
 }
 
-/// The mean over pixels of a rectangle.
+/// Returns the mean colour over the pixels of a rectangle.
 Vec3f mean(const Image& image, int left, int top, int right, int bottom) {
   Vec3f sum = Vec3f::Zero();
   for (int y = top; y < bottom; ++y) {
@@ -32,7 +32,7 @@ Vec3f mean(const Image& image, int left, int top, int right, int bottom) {
   return sum / static_cast<float>((bottom - top) * (right - left));
 }
 
-/// A wall that fills the picture, x and y from -1 to 1, seen and lit from the front.
+/// Returns a frame of a wall that fills the picture, x and y from -1 to 1, lit from the front.
 Frame wall_frame(Stuff stuff) {
   SyntheticFrame s;
   s.add_box({-1, -1, -0.2}, {1, 1, 0}, stuff);
@@ -43,9 +43,9 @@ Frame wall_frame(Stuff stuff) {
   return s.frame;
 }
 
-/// The frame with every vertex of its first mesh of the paint, and texture coordinates that go from
-/// 0 to 1 over the wall.
-void paint_all(Frame& frame, const Appearance& paint) {
+/// Gives the surface of the frame's first mesh this appearance, and texture coordinates from 0 to 1
+/// over the wall.
+void apply_appearance(Frame& frame, const Appearance& paint) {
   auto mesh = std::make_shared<Mesh>(*(*frame.meshes)[0]);
   for (Mesh::Vertex& vertex : mesh->vertices) {
     if (vertex.look == Mesh::kSurface) vertex.look = Mesh::kFirstPaint;
@@ -63,7 +63,7 @@ EncodedImage as_png(const Image& image) {
   return std::make_shared<const std::vector<std::byte>>(begin, begin + png.size());
 }
 
-/// A picture of equal rows, or columns, of these colours.
+/// Returns a PNG of equal rows, or columns, of these colours, `each` pixels wide.
 EncodedImage stripes(const std::vector<Vec3f>& colors, bool rows, int each = 8) {
   const int count = static_cast<int>(colors.size());
   Image image{count * each, count * each, {}};
@@ -76,7 +76,7 @@ EncodedImage stripes(const std::vector<Vec3f>& colors, bool rows, int each = 8) 
   return as_png(image);
 }
 
-/// Red and green above, blue and white below, 8 x 8.
+/// Returns a texture of 8 x 8 pixels: red and green above, blue and white below.
 Appearance four_colors(bool v_from_bottom) {
   Image image{8, 8, {}};
   for (int y = 0; y < 8; ++y) {
@@ -91,18 +91,18 @@ Appearance four_colors(bool v_from_bottom) {
   return {Vec3f::Ones(), as_png(image), v_from_bottom};
 }
 
-TEST(Appearance, AFilesColorIsSeenInPlaceOfTheMaterials) {
+TEST(Appearance, TheColorOfTheFileReplacesTheMaterials) {
   Frame frame = wall_frame(Stuff::kBrick);
-  paint_all(frame, {Vec3f(0.05f, 0.5f, 0.05f), nullptr, false});
+  apply_appearance(frame, {Vec3f(0.05f, 0.5f, 0.05f), nullptr, false});
   const Vec3f color = mean(drawn(frame), 140, 70, 180, 110);
   EXPECT_GT(color.y(), color.x() + 60);
   EXPECT_GT(color.y(), color.z() + 60);
 }
 
-TEST(Appearance, APictureLiesWhereItsCoordinatesSayEitherWayUp) {
+TEST(Appearance, ATextureFollowsItsCoordinatesWithVFromTopOrBottom) {
   for (const bool v_from_bottom : {false, true}) {
     Frame frame = wall_frame(Stuff::kConcrete);
-    paint_all(frame, four_colors(v_from_bottom));
+    apply_appearance(frame, four_colors(v_from_bottom));
     const Image image = drawn(frame);
     const int top = v_from_bottom ? 120 : 40, low = 160 - top;
     const auto at = [&](int x, int y) { return mean(image, x - 8, y - 8, x + 8, y + 8); };
@@ -116,10 +116,10 @@ TEST(Appearance, APictureLiesWhereItsCoordinatesSayEitherWayUp) {
 
 const Vec3f kFlat(128, 128, 255);
 
-/// A white wall in relief, lit from the right and above.
-Frame relief_frame(const EncodedImage& relief, bool v_from_bottom = false, float scale = 1) {
+/// Returns a frame of a grey wall with this normal map, lit from the right and above.
+Frame normal_map_frame(const EncodedImage& relief, bool v_from_bottom = false, float scale = 1) {
   Frame frame = wall_frame(Stuff::kPlaster);
-  paint_all(frame, {Vec3f(0.4f, 0.4f, 0.4f), nullptr, v_from_bottom, relief, scale});
+  apply_appearance(frame, {Vec3f(0.4f, 0.4f, 0.4f), nullptr, v_from_bottom, relief, scale});
   frame.view.to_sun_W = {1, 1, 1};
   return frame;
 }
@@ -128,25 +128,25 @@ float brightness(const Image& image, int x, int y) {
   return mean(image, x - 6, y - 6, x + 6, y + 6).sum() / 3;
 }
 
-TEST(Relief, TurnsTheFaceToTheLightOrAwayEitherWayUp) {
+TEST(NormalMap, ChangesTheShadingWithVFromTopOrBottom) {
   const Vec3f left(48, 128, 228), right(208, 128, 228), up(128, 208, 228), low(128, 48, 228);
   for (const bool v_from_bottom : {false, true}) {
-    const Image flat = drawn(relief_frame(stripes({kFlat}, false), v_from_bottom));
-    const Image columns = drawn(relief_frame(stripes({left, right}, false), v_from_bottom));
+    const Image flat = drawn(normal_map_frame(stripes({kFlat}, false), v_from_bottom));
+    const Image columns = drawn(normal_map_frame(stripes({left, right}, false), v_from_bottom));
     EXPECT_LT(brightness(columns, 120, 90), brightness(flat, 120, 90) - 15) << v_from_bottom;
     EXPECT_GT(brightness(columns, 200, 90), brightness(flat, 200, 90) + 15) << v_from_bottom;
-    // The wall's coordinates begin at its top; read from below, the picture stands on its head, and
-    // what is up in it is down.
-    const Image rows = drawn(relief_frame(stripes({up, low}, true), v_from_bottom));
+    // The wall's texture coordinates begin at its top. With v counted from the bottom the map lies
+    // upside down, and its upward normals point down.
+    const Image rows = drawn(normal_map_frame(stripes({up, low}, true), v_from_bottom));
     EXPECT_GT(brightness(rows, 160, 40), brightness(flat, 160, 40) + 15) << v_from_bottom;
     EXPECT_LT(brightness(rows, 160, 140), brightness(flat, 160, 140) - 15) << v_from_bottom;
   }
 }
 
-TEST(Relief, FollowsTextureCoordinatesThatAreMirroredOrTurned) {
+TEST(NormalMap, FollowsTextureCoordinatesThatAreMirroredOrTurned) {
   const EncodedImage right = stripes({Vec3f(208, 128, 228)}, false);
   const auto seen = [&](const Eigen::Matrix2f& turn) {
-    Frame frame = relief_frame(right);
+    Frame frame = normal_map_frame(right);
     frame.view.to_sun_W = {1, 0.2, 1};
     auto mesh = std::make_shared<Mesh>(*(*frame.meshes)[0]);
     for (Eigen::Vector2f& uv : mesh->uvs) uv = Eigen::Vector2f(turn * uv);
@@ -163,47 +163,47 @@ TEST(Relief, FollowsTextureCoordinatesThatAreMirroredOrTurned) {
   EXPECT_LT(up, given - 10);
 }
 
-TEST(Relief, OfScaleNoneOrOfFlatColorIsTheFaceItself) {
-  const Image flat = drawn(relief_frame(stripes({kFlat}, false)));
-  EXPECT_EQ(
-      drawn(relief_frame(stripes({Vec3f(208, 128, 228), Vec3f(48, 128, 228)}, false), false, 0)),
-      flat);
-  Frame without = relief_frame(nullptr);
+TEST(NormalMap, OfScaleZeroOrConstantNormalLeavesTheFaceFlat) {
+  const Image flat = drawn(normal_map_frame(stripes({kFlat}, false)));
+  EXPECT_EQ(drawn(normal_map_frame(stripes({Vec3f(208, 128, 228), Vec3f(48, 128, 228)}, false),
+                                   false, 0)),
+            flat);
+  Frame without = normal_map_frame(nullptr);
   auto mesh = std::make_shared<Mesh>(*(*without.meshes)[0]);
-  mesh->uvs.clear();  // a picture of which nobody says where it lies
-  Frame nowhere = relief_frame(stripes({kFlat}, false));
+  mesh->uvs.clear();  // without coordinates the map is not used
+  Frame nowhere = normal_map_frame(stripes({kFlat}, false));
   nowhere.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
   EXPECT_EQ(drawn(nowhere), flat);
   const float steep =
-      brightness(drawn(relief_frame(stripes({Vec3f(208, 128, 228)}, false))), 160, 90);
-  const float steeper =
-      brightness(drawn(relief_frame(stripes({Vec3f(168, 128, 248)}, false), false, 0.1f)), 160, 90);
+      brightness(drawn(normal_map_frame(stripes({Vec3f(208, 128, 228)}, false))), 160, 90);
+  const float steeper = brightness(
+      drawn(normal_map_frame(stripes({Vec3f(168, 128, 248)}, false), false, 0.1f)), 160, 90);
   EXPECT_GT(steep, steeper + 5);
 }
 
-TEST(Relief, OfGreyIsHeights) {
-  // From black to white and back: a roof along the picture, whose left side looks left.
-  std::vector<Vec3f> roof;
+TEST(NormalMap, InGreyIsReadAsHeights) {
+  // Heights that rise from black to white and fall again: a ridge whose left side faces left.
+  std::vector<Vec3f> ridge;
   for (int i = 0; i < 64; ++i)
-    roof.push_back(Vec3f::Constant(static_cast<float>(i < 32 ? 8 * i : 8 * (63 - i))));
+    ridge.push_back(Vec3f::Constant(static_cast<float>(i < 32 ? 8 * i : 8 * (63 - i))));
   const float scale = 10;
-  const Image columns = drawn(relief_frame(stripes(roof, false, 4), false, scale));
-  const Image flat = drawn(relief_frame(stripes({kFlat}, false)));
+  const Image columns = drawn(normal_map_frame(stripes(ridge, false, 4), false, scale));
+  const Image flat = drawn(normal_map_frame(stripes({kFlat}, false)));
   EXPECT_LT(brightness(columns, 120, 90), brightness(flat, 120, 90) - 5);
   EXPECT_GT(brightness(columns, 200, 90), brightness(flat, 200, 90) + 5);
-  const Image rows = drawn(relief_frame(stripes(roof, true, 4), false, scale));
-  EXPECT_GT(brightness(rows, 160, 50), brightness(flat, 160, 50) + 5) << "its upper side looks up";
+  const Image rows = drawn(normal_map_frame(stripes(ridge, true, 4), false, scale));
+  EXPECT_GT(brightness(rows, 160, 50), brightness(flat, 160, 50) + 5) << "the upper side faces up";
   EXPECT_LT(brightness(rows, 160, 130), brightness(flat, 160, 130) - 5);
 }
 
-/// A ball of a paint, the sun behind the eye, above and to the right.
+/// Returns a frame of a ball with this appearance; the sun is behind, above and right of the eye.
 Frame ball_frame(const Appearance& paint, Stuff stuff = Stuff::kPlaster) {
   SyntheticFrame s;
   s.add_ball({0, 3, 0}, 1, stuff);
   s.frame.view.eye_W = {0, 3, 4};
   s.frame.view.target_W = {0, 3, 0};
   s.frame.view.to_sun_W = {0.5, 0.7, 1};
-  paint_all(s.frame, paint);
+  apply_appearance(s.frame, paint);
   return s.frame;
 }
 
@@ -211,7 +211,7 @@ Appearance glossy(float roughness, float metallic, const Vec3f& color = Vec3f(0.
   return {color, nullptr, false, nullptr, 1, MetallicRoughness{roughness, metallic}};
 }
 
-/// Where on the picture of a ball the sun is mirrored, about.
+/// Returns the mean colour near the sun's reflection on the ball.
 Vec3f highlight(const Image& image) { return mean(image, 176, 60, 186, 70); }
 
 TEST(MetallicRoughness, ShowsTheSunInAHighlightThatIsNarrowerTheSmootherAndDimmerTheRougher) {
@@ -235,24 +235,24 @@ TEST(MetallicRoughness, ShowsTheSunInAHighlightThatIsNarrowerTheSmootherAndDimme
   const Image rough = drawn(ball_frame(glossy(1, 0)));
   EXPECT_GT(highest(smooth), highest(medium) + 30);
   EXPECT_GT(highest(medium), highest(rough) + 10);
-  EXPECT_LT(highest(rough), highest(none) + 30) << "which is hardly more than without";
+  EXPECT_LT(highest(rough), highest(none) + 30) << "hardly more than without gloss";
   EXPECT_LT(wide(smooth), wide(medium));
   EXPECT_GT(wide(smooth), 4);
 }
 
-TEST(MetallicRoughness, OfAMetalHasItsColorAndTheRestOfItMirrors) {
+TEST(MetallicRoughness, OfAMetalHasItsColorAndReflectsTheSurroundings) {
   const Vec3f gold(0.8f, 0.5f, 0.1f);
   const Vec3f metal = highlight(drawn(ball_frame(glossy(0.5f, 1, gold))));
   const Vec3f lacquer = highlight(drawn(ball_frame(glossy(0.5f, 0, Vec3f(0, 0, 0)))));
   EXPECT_GT(metal.x(), 1.5f * metal.z());
   EXPECT_LT(lacquer.x(), 1.5f * lacquer.z()) << "the sun itself is warm";
-  // Below, a mirror shows the ground, above the sky.
+  // A mirror shows the ground below and the sky above.
   const Image image = drawn(ball_frame(glossy(0.1f, 1, Vec3f(0.9f, 0.9f, 0.9f))));
   const Vec3f above = mean(image, 130, 55, 140, 60), below = mean(image, 155, 122, 165, 130);
   EXPECT_GT(above.z() / above.x(), below.z() / below.x() + 0.1f);
 }
 
-TEST(MetallicRoughness, IsTheFilesInPlaceOfTheMaterials) {
+TEST(MetallicRoughness, OfTheFileReplacesTheMaterials) {
   const Appearance dull = glossy(1, 0);
   const auto off = [](const Image& a, const Image& b) {
     return (mean(a, 120, 50, 200, 130) - mean(b, 120, 50, 200, 130)).cwiseAbs().maxCoeff();
@@ -262,8 +262,8 @@ TEST(MetallicRoughness, IsTheFilesInPlaceOfTheMaterials) {
   EXPECT_GT(off(steel, drawn(ball_frame(glossy(0.2f, 1), Stuff::kSteel))), 10);
 }
 
-TEST(MetallicRoughness, OfAPictureIsGreenTimesRoughnessAndBlueTimesMetallic) {
-  // Left it is smooth lacquer, right rough metal; red says nothing.
+TEST(MetallicRoughness, OfATextureIsGreenTimesRoughnessAndBlueTimesMetallic) {
+  // The left half is smooth lacquer, the right half rough metal; the red channel is not used.
   Appearance paint = glossy(1, 1, Vec3f(0.8f, 0.5f, 0.1f));
   const auto image = [&](const std::vector<Vec3f>& halves) {
     paint.gloss->picture = stripes(halves, false, 32);
@@ -283,21 +283,21 @@ TEST(MetallicRoughness, OfAPictureIsGreenTimesRoughnessAndBlueTimesMetallic) {
   EXPECT_LT(near(all_lacquer, drawn(ball_frame(paint)), 125, 195), 1) << "51 of 255 is 0.2";
 }
 
-TEST(Appearance, WhatBrokeLooksAsItsMaterialDoes) {
+TEST(Appearance, BrokenFacesAreDrawnInTheirMaterial) {
   Frame plain = wall_frame(Stuff::kConcrete);
   auto mesh = std::make_shared<Mesh>(*(*plain.meshes)[0]);
   for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kInterior;
   plain.meshes = std::make_shared<const MeshStore>(MeshStore{mesh});
   const Image broken = drawn(plain);
   Frame painted = plain;
-  paint_all(painted, four_colors(false));  // its surface, of which it has none
+  apply_appearance(painted, four_colors(false));  // the mesh has no surface vertices
   EXPECT_EQ(drawn(painted), broken);
 }
 
-TEST(Appearance, TheNextFramesPaintsAreThoseSeen) {
+TEST(Appearance, EachFrameIsDrawnWithItsOwn) {
   Frame red = wall_frame(Stuff::kConcrete), blue = red;
-  paint_all(red, {Vec3f(0.6f, 0, 0), nullptr, false});
-  paint_all(blue, {Vec3f(0, 0, 0.6f), nullptr, false});
+  apply_appearance(red, {Vec3f(0.6f, 0, 0), nullptr, false});
+  apply_appearance(blue, {Vec3f(0, 0, 0.6f), nullptr, false});
   const Frame plain = wall_frame(Stuff::kConcrete);
   const Image before = drawn(plain);
   const Vec3f seen_red = mean(drawn(red), 140, 70, 180, 110);
@@ -307,16 +307,17 @@ TEST(Appearance, TheNextFramesPaintsAreThoseSeen) {
   EXPECT_EQ(drawn(plain), before);
 }
 
-TEST(Appearance, APictureThatIsNoneIsRefused) {
+TEST(Appearance, WithAnUnreadableTextureIsRefused) {
   Frame frame = wall_frame(Stuff::kConcrete);
   Appearance paint;
   paint.picture = std::make_shared<const std::vector<std::byte>>(20);
-  paint_all(frame, paint);
+  apply_appearance(frame, paint);
   EXPECT_THROW(drawn(frame), InputError);
-  EXPECT_NO_THROW(drawn(wall_frame(Stuff::kConcrete))) << "and the renderer goes on";
+  EXPECT_NO_THROW(drawn(wall_frame(Stuff::kConcrete)))
+      << "the renderer can be used after the error";
 }
 
-/// A pane before a wall, its broken edge in the middle.
+/// Returns a frame of a pane in front of a wall, with a crack in the middle of the pane.
 Frame pane_frame(const Vec3& eye, bool with_pane = true) {
   SyntheticFrame s;
   s.add_box({-4, 0, -2}, {4, 3, -1.9}, Stuff::kWood);
@@ -330,7 +331,7 @@ Frame pane_frame(const Vec3& eye, bool with_pane = true) {
   return s.frame;
 }
 
-TEST(Glass, TakesColorFromWhatIsBehindItAndIsBrighterWhereItIsLookedAlong) {
+TEST(Glass, AbsorbsRedFromWhatIsBehindIt) {
   const Vec3 eye(0.3, 1.1, 4);
   const Vec3f with = mean(drawn(pane_frame(eye)), 130, 60, 150, 110);
   const Vec3f without = mean(drawn(pane_frame(eye, false)), 130, 60, 150, 110);
@@ -338,14 +339,14 @@ TEST(Glass, TakesColorFromWhatIsBehindItAndIsBrighterWhereItIsLookedAlong) {
   EXPECT_LT(with.x() / with.y(), without.x() / without.y());
 }
 
-TEST(Glass, FromAnywhereIsNeitherBlackNorBurntOut) {
+TEST(Glass, IsNeitherBlackNorOverexposedFromAnyDirection) {
   for (int step = 0; step < 12; ++step) {
     const double angle = 0.13 + 0.5 * step;
     const Image image =
         drawn(pane_frame(Vec3(3 * std::sin(angle), 0.3 + 0.2 * step, 3 * std::cos(angle))));
     std::size_t black = 0, white = 0;
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-      black += image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2] == 0;  // what is no number is
+      black += image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2] == 0;  // NaN is black
       white += image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2] == 3 * 255;
     }
     EXPECT_EQ(black, 0u) << step;
@@ -353,7 +354,7 @@ TEST(Glass, FromAnywhereIsNeitherBlackNorBurntOut) {
   }
 }
 
-TEST(Metal, MirrorsTheSkyAboveAndTheGroundBelow) {
+TEST(Metal, ReflectsTheSkyAboveAndTheGroundBelow) {
   SyntheticFrame s;
   s.add_ball({0, 3, 0}, 1, Stuff::kSteel);
   s.frame.view.eye_W = {0, 3, 4};
@@ -366,7 +367,7 @@ TEST(Metal, MirrorsTheSkyAboveAndTheGroundBelow) {
   EXPECT_GT(below.x() / below.z(), 1.2f) << below.transpose();
 }
 
-TEST(WhiteStone, InTheSunKeepsItsShape) {
+TEST(WhiteStone, InTheSunKeepsItsShading) {
   SyntheticFrame s;
   s.add_ball({0, 1, 0}, 1, Stuff::kPlaster);
   auto materials = std::make_shared<std::vector<Material>>(*s.frame.materials);

@@ -1,4 +1,4 @@
-// Films at any pace: what is between two frames, and which pictures there are.
+// Tests of playback at any rate: interpolation between frames, and the times of pictures.
 #include <cmath>
 #include <vector>
 
@@ -28,7 +28,7 @@ FrameBody body(std::uint64_t key, const Pose& X_WB, const Vec3& com_R = Vec3::Ze
   return body;
 }
 
-/// Frames that are there already.
+/// A source of given frames.
 class Given final : public FrameSource {
  public:
   explicit Given(std::vector<FramePtr> frames) : frames_(std::move(frames)) {}
@@ -66,7 +66,7 @@ std::vector<double> times(const PlaybackRate& pace, std::uint64_t frames) {
   return all;
 }
 
-TEST(PlaybackRate, AtItsOwnPaceARunGivesItsFramesThemselves) {
+TEST(PlaybackRate, AtItsOwnRateARunGivesItsFramesUnchanged) {
   const std::vector<FramePtr> frames = run(4);
   Given given(frames);
   ResampledSource paced(given, {});
@@ -74,7 +74,7 @@ TEST(PlaybackRate, AtItsOwnPaceARunGivesItsFramesThemselves) {
   EXPECT_EQ(paced.next(), nullptr);
 }
 
-TEST(PlaybackRate, PicturesAreEvenlyInTimeUpToTheLastFrame) {
+TEST(PlaybackRate, PicturesAreEvenlySpacedInTimeUpToTheLastFrame) {
   const std::vector<double> slow = times({60, 0.1}, 4);
   ASSERT_EQ(slow.size(), 31u);
   for (std::size_t i = 0; i < slow.size(); ++i) {
@@ -88,7 +88,7 @@ TEST(PlaybackRate, PicturesAreEvenlyInTimeUpToTheLastFrame) {
   EXPECT_EQ(times({60, 3}, 10).size(), 4u) << "every third";
 }
 
-TEST(PlaybackRate, WhatIsPassedOverIsOnePictureAFrame) {
+TEST(PlaybackRate, FramesBeforeTheFirstAreOnePictureEach) {
   const auto pictures = [](const PlaybackRate& pace, std::uint64_t first) {
     Given given(run(4));
     ResampledSource paced(given, pace, first);
@@ -106,12 +106,12 @@ TEST(PlaybackRate, PicturesOfAPartOfARunAreThoseOfTheWhole) {
   const PlaybackRate pace{60, 0.3};
   EXPECT_EQ(pace.first_picture(0), 0u);
   EXPECT_EQ(pace.last_picture(10), 33u);
-  EXPECT_EQ(pace.first_picture(10), 34u) << "what is drawn up to a frame and from it on is all";
+  EXPECT_EQ(pace.first_picture(10), 34u) << "both parts together have all pictures";
   EXPECT_EQ((PlaybackRate{60, 0.1}).first_picture(7), 70u);
   EXPECT_EQ((PlaybackRate{60, 0.1}).last_picture(7), 70u);
 }
 
-TEST(Between, BodiesGoStraightAndTurnEvenlyByWholeTurnsToo) {
+TEST(FrameInterpolation, BodiesMoveStraightAndTurnEvenlyAlsoByWholeTurns) {
   const auto a = frame_of(0), b = frame_of(1);
   const Vec3 spin_W = Vec3(0, 0, 2 * 3.14159265358979 * 1.25 / kFrame_s);  // more than once round
   a->bodies = {body(0, {{0, 0, 0}, Quat::Identity()}), body(1, {})};
@@ -126,8 +126,8 @@ TEST(Between, BodiesGoStraightAndTurnEvenlyByWholeTurnsToo) {
   EXPECT_NEAR(half->time_s, 0.5 * kFrame_s, 1e-12);
 }
 
-// In the rest frame the pieces of a turned and moved body lie where they lay in it.
-TEST(Between, PiecesComeApartFromWhereTheyWereInTheWhole) {
+// Pieces have the position in the rest frame that they had in the turned and moved body.
+TEST(FrameInterpolation, PiecesStartAtTheirPositionInTheWhole) {
   const auto a = frame_of(0), b = frame_of(1);
   const Pose X_WB{{5, 3, 1}, rotation_by({0.3, 1, -0.2})};
   const Vec3 com_R(1, 2, 3), piece_com_R(1.5, 2, 2.5);
@@ -142,7 +142,7 @@ TEST(Between, PiecesComeApartFromWhereTheyWereInTheWhole) {
   EXPECT_LT((at_last->bodies[0].X_WB.position - Vec3(9, 9, 9)).norm(), 1e-6);
 }
 
-TEST(Between, PiecesStayTogetherUntilTheBreak) {
+TEST(FrameInterpolation, PiecesStayTogetherUntilTheBreak) {
   const auto a = frame_of(0), b = frame_of(1);
   FrameBody whole = body(0, {{0, 5, 0}, Quat::Identity()});
   whole.velocity_W = {60, 0, 0};
@@ -163,13 +163,14 @@ TEST(Between, PiecesStayTogetherUntilTheBreak) {
   EXPECT_NEAR(gap_m(0.5), 2, 1e-9);
   EXPECT_NEAR(gap_m(0.75), 3, 0.01);
   const auto before_it = between(interval_of(a, b), 0.5);
-  EXPECT_NEAR(before_it->bodies[0].X_WB.position.x(), 0.5, 0.1) << "they fly as the whole did";
+  EXPECT_NEAR(before_it->bodies[0].X_WB.position.x(), 0.5, 0.1)
+      << "they move with the velocity of the whole";
   EXPECT_LT(before_it->bodies[0].X_WB.rotation.angularDistance(rotation_by({0, 0.05, 0})), 1e-9);
   EXPECT_LT((between(interval_of(a, b), 1 - 1e-9)->bodies[1].X_WB.position - Vec3(3, 5, -2)).norm(),
             1e-6);
 }
 
-TEST(Between, AShotComesFromWhereItFlewAndWhatGoesFliesOn) {
+TEST(FrameInterpolation, ANewBodyIsExtrapolatedBackAndARemovedOneForward) {
   SyntheticFrame sa, sb;
   sa.add_ball({1, 1, 1}, 0.3, Stuff::kSteel);
   sa.add_ball({2, 1, 1}, 0.3, Stuff::kSteel);
@@ -181,19 +182,19 @@ TEST(Between, AShotComesFromWhereItFlewAndWhatGoesFliesOn) {
   a->bodies[1].key = 9;
   b->bodies[0].key = b->bodies[0].previous_key = 8;
   b->bodies[0].velocity_W = {60, 0, 0};
-  // One run's store: the ball that goes has a mesh of its own, the last one becomes part of
-  // another.
+  // Meshes of a run are in one store. The ball that is removed has its own mesh; the mesh of the
+  // second ball becomes part of the new body.
   auto store = std::make_shared<MeshStore>(*a->meshes);
   store->push_back((*b->meshes)[0]);
   b->meshes = store;
   b->instances = {{MeshIndex(2), 0}, {MeshIndex(1), 0}};
   const auto half = between(interval_of(a, b), 0.5);
   ASSERT_EQ(half->bodies.size(), 2u);
-  EXPECT_EQ(half->bodies[0].key, 7u) << "still by key";
+  EXPECT_EQ(half->bodies[0].key, 7u) << "bodies are ordered by key";
   EXPECT_LT((half->bodies[0].X_WB.position - Vec3(1, 0.95, 1)).norm(), 1e-9);
   EXPECT_EQ(half->bodies[1].key, 8u);
   EXPECT_LT((half->bodies[1].X_WB.position - Vec3(4.5, 0, 0)).norm(), 1e-9);
-  ASSERT_EQ(half->instances.size(), 3u) << "what is part of another is not drawn twice";
+  ASSERT_EQ(half->instances.size(), 3u) << "a mesh of another body is not drawn twice";
   EXPECT_EQ(half->instances[0].body, 1u);
   EXPECT_EQ(half->instances[2].body, 0u);
 }
@@ -206,10 +207,10 @@ FrameDebris chip(const Vec3f& place, float radius_m) {
   return chip;
 }
 
-TEST(Between, ChipsAreKnownAgainWhenOthersGoAndComeAmongThem) {
+TEST(FrameInterpolation, DebrisIsMatchedWhenOtherDebrisIsRemovedAndAdded) {
   const auto a = frame_of(0), b = frame_of(1), c = frame_of(2);
   a->debris = {chip({0, 0, 0}, 0.01f), chip({1, 0, 0}, 0.02f), chip({2, 0, 0}, 0.03f)};
-  // The first has gone, the last has taken its place, a new one flies off.
+  // The first piece of debris is removed, the last one has its index, and a new one flies off.
   b->debris = {chip({2, 1, 0}, 0.03f), chip({1, 1, 0}, 0.02f), chip({5, 5, 0}, 0.015f)};
   c->debris = b->debris;
   c->debris[2].position_W = {5.1f, 5, 0};
@@ -218,13 +219,13 @@ TEST(Between, ChipsAreKnownAgainWhenOthersGoAndComeAmongThem) {
   EXPECT_LT((half->debris[0].position_W - Vec3f(2, 0.5f, 0)).norm(), 1e-6f);
   EXPECT_LT((half->debris[1].position_W - Vec3f(1, 0.5f, 0)).norm(), 1e-6f);
   EXPECT_LT((half->debris[2].position_W - Vec3f(4.95f, 5, 0)).norm(), 1e-5f)
-      << "it comes from where it flies away from";
-  EXPECT_FLOAT_EQ(half->debris[2].radius_m, 0.0075f) << "and grows into view";
+      << "new debris is extrapolated back";
+  EXPECT_FLOAT_EQ(half->debris[2].radius_m, 0.0075f) << "new debris grows";
   EXPECT_EQ(half->debris[3].position_W, Vec3f(0, 0, 0));
-  EXPECT_FLOAT_EQ(half->debris[3].radius_m, 0.005f) << "what goes shrinks out of it";
+  EXPECT_FLOAT_EQ(half->debris[3].radius_m, 0.005f) << "removed debris shrinks";
 }
 
-TEST(Between, PuffsAreKnownAgainByTheirOrder) {
+TEST(FrameInterpolation, DustIsMatchedByItsOrder) {
   const auto a = frame_of(0), b = frame_of(1);
   for (int i = 0; i < 10; ++i) {
     FrameDust puff;
@@ -246,7 +247,7 @@ TEST(Between, PuffsAreKnownAgainByTheirOrder) {
     EXPECT_NEAR(half->dust[i].position_W.y(), 0.05f, 1e-6f);
     EXPECT_FLOAT_EQ(half->dust[i].opacity, 0.5f);
   }
-  EXPECT_FLOAT_EQ(half->dust[8].opacity, 0.25f) << "what settles fades";
+  EXPECT_FLOAT_EQ(half->dust[8].opacity, 0.25f) << "removed dust fades";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Pictures: the same bytes, lit faces, shadows, precision far from the origin. The file is long
-// because its tests share one renderer.
+// Tests of the renderer: reproducible bytes, lit faces, shadows, precision far from the origin.
+// They are in one file because they share one renderer.
 #include "render/renderer.h"
 
 #include <optional>
@@ -36,17 +36,17 @@ TEST(Renderer, TheSameFrameGivesTheSameBytesWhateverWasDrawnBefore) {
   const Frame frame = house_frame(200);
   const Image first = renderer().draw(frame);
   EXPECT_EQ(renderer().draw(frame), first) << "drawn twice in a row";
-  renderer().draw(house_frame(2500));  // outgrows the buffers
+  renderer().draw(house_frame(2500));  // more than fits into the buffers
   EXPECT_EQ(renderer().draw(frame), first) << "after another frame";
   Renderer fresh(small());
   EXPECT_EQ(fresh.draw(frame), first) << "in a new context";
 }
 
-/// Six thousand chunks over a floor, close together, in so many meshes. Places are multiples of
-/// powers of two, so that floats have them exactly whichever mesh they are in.
-Frame crowd(std::size_t meshes) {
+/// Returns a frame of 6000 chunks close together over a floor, in this number of meshes. Positions
+/// are multiples of powers of two, so that floats hold them exactly in any mesh.
+Frame chunk_grid(std::size_t meshes) {
   SyntheticFrame s;
-  s.add_box({-32, -2, -32}, {32, -1, 32}, Stuff::kConcrete);  // what the sun's map is laid out by
+  s.add_box({-32, -2, -32}, {32, -1, 32}, Stuff::kConcrete);  // the shadow map is fitted to it
   Random random(5);
   std::vector<Mesh> parts(meshes);
   for (std::size_t i = 0; i < 6000; ++i) {
@@ -81,12 +81,12 @@ Frame crowd(std::size_t meshes) {
   return s.frame;
 }
 
-TEST(Renderer, WhatIsLeftOutOfACrowdAsCoveredWouldNotBeSeen) {
-  EXPECT_EQ(renderer().draw(crowd(6000)), renderer().draw(crowd(20)));
+TEST(Renderer, OcclusionCullingDoesNotChangeThePicture) {
+  EXPECT_EQ(renderer().draw(chunk_grid(6000)), renderer().draw(chunk_grid(20)));
 }
 
 TEST(Renderer, EveryKindOfContextGivesTheSameBytes) {
-  const Frame frame = house_frame(2500);  // enough to leave out what is covered
+  const Frame frame = house_frame(2500);  // enough bodies for occlusion culling
   std::optional<Image> first;
   std::string first_kind;
   std::string absent;
@@ -94,7 +94,7 @@ TEST(Renderer, EveryKindOfContextGivesTheSameBytes) {
   for (const char* gl : {"egl-surfaceless", "egl-device:0", "osmesa"}) {
     try {
       Renderer other(small(gl));
-      // Hardware rounds differently; only software drivers promise the same bytes.
+      // GPUs round differently; only software drivers give equal bytes.
       if (other.description().find("llvmpipe") == std::string::npos) continue;
       const Image image = other.draw(frame);
       if (!first) {
@@ -110,7 +110,7 @@ TEST(Renderer, EveryKindOfContextGivesTheSameBytes) {
   if (kinds < 2) GTEST_SKIP() << "fewer than two software contexts here:" << absent;
 }
 
-TEST(Renderer, AnUnknownContextIsRefusedWithWhatIsAllowed) {
+TEST(Renderer, AnUnknownContextIsRefusedWithTheAllowedOnes) {
   for (const char* gl : {"", "vulkan", "egl-device:", "egl-device:x", "egl-device:-1"}) {
     try {
       Renderer other(small(gl));
@@ -123,7 +123,7 @@ TEST(Renderer, AnUnknownContextIsRefusedWithWhatIsAllowed) {
   EXPECT_THROW(Renderer(small("egl-device:99")), InputError);
 }
 
-TEST(Renderer, APictureTooLargeForTheDeviceIsRefusedWithTheLargestThatIsNot) {
+TEST(Renderer, APictureTooLargeForTheDeviceIsRefusedWithTheLargestSize) {
   try {
     Renderer renderer({.width = 1 << 20, .height = 16});
     ADD_FAILURE();
@@ -139,7 +139,7 @@ TEST(Renderer, ADescriptionNamesTheContextAndTheDriver) {
   EXPECT_GT(text.size(), 20u) << text;
 }
 
-/// The picture of one thing, its sun behind the camera.
+/// Draws a frame of one body, lit from behind the camera.
 Image lit_from(const Vec3& eye, const SyntheticFrame& synthetic) {
   Frame frame = synthetic.frame;
   frame.view.eye_W = eye + Vec3(0, 3, 0);
@@ -221,7 +221,7 @@ TEST(Renderer, DebrisIsDrawnInItsMaterialAndThrowsAShadow) {
   s.frame.view.eye_W = Vec3(0, 6, 6);
   s.frame.view.target_W = Vec3(0, 1, 0);
   s.frame.view.to_sun_W = Vec3(0.001, 1, 0);
-  s.add_box({-3, -0.1, -3}, {3, 0, 3}, Stuff::kPlaster);  // what shadows fall on
+  s.add_box({-3, -0.1, -3}, {3, 0, 3}, Stuff::kPlaster);  // receives the shadow
   const Image without = renderer().draw(s.frame);
   FrameDebris chip;
   chip.radius_m = 0.5f;
@@ -242,7 +242,7 @@ TEST(Renderer, DebrisIsDrawnInItsMaterialAndThrowsAShadow) {
   EXPECT_EQ(renderer().draw(s.frame), without);
 }
 
-TEST(Renderer, DustVeilsWhatIsBehindItAndNotWhatIsBefore) {
+TEST(Renderer, DustVeilsWhatIsBehindItAndNotWhatIsInFrontOfIt) {
   SyntheticFrame s;
   s.frame.view.eye_W = Vec3(0, 1, 9);
   s.frame.view.target_W = Vec3(0, 1, 0);
@@ -261,8 +261,8 @@ TEST(Renderer, DustVeilsWhatIsBehindItAndNotWhatIsBefore) {
     return (pixel(with, x, 90) - pixel(without, x, 90)).cwiseAbs().maxCoeff();
   };
   EXPECT_GT(change(175), 12) << "open sky and ground are veiled";
-  EXPECT_LT(change(140), 3) << "the wall stands before the dust";
-  EXPECT_EQ(renderer().draw(s.frame), with) << "the same bytes again";
+  EXPECT_LT(change(140), 3) << "the wall is in front of the dust";
+  EXPECT_EQ(renderer().draw(s.frame), with) << "equal bytes when drawn again";
 }
 
 TEST(Renderer, BricksThatAreABodyEachDifferInToneAndHaveJoints) {
@@ -294,7 +294,7 @@ TEST(Renderer, BricksThatAreABodyEachDifferInToneAndHaveJoints) {
     EXPECT_LT(joint(i), 0.93f * std::min(middle(i - 1), middle(i))) << i;
   }
   EXPECT_GT(brightest, 1.06f * darkest);
-  // Parts of one body have neither.
+  // Parts of one body have one tone and no joints.
   for (Instance& instance : s.frame.instances) instance.body = 0;
   image = renderer().draw(s.frame);
   float lighter = 0;
@@ -338,15 +338,15 @@ TEST(Renderer, DustThatHasRisenIsWiderAndThinner) {
   EXPECT_GT(high.pixels, 1.15 * low.pixels);
 }
 
-// Casters far off are left out of the size of the map, and yet drawn into it.
-TEST(Renderer, AShadowThatReachesTheRimOfTheMapIsNotDrawnOutBeyondIt) {
+// Distant shadow casters do not count for the size of the shadow map, but are drawn into it.
+TEST(Renderer, AShadowAtTheBorderOfTheMapIsNotExtendedBeyondIt) {
   SyntheticFrame s;
   s.frame.view.eye_W = Vec3(0, 8, 6);
   s.frame.view.target_W = Vec3(0, 0, 0);
   s.frame.view.to_sun_W = Vec3(0, 1, 0.001);
   s.add_box({-0.3, 0, -0.3}, {0.3, 0.3, 0.3}, Stuff::kConcrete);
   const Image without = renderer().draw(s.frame);
-  // A beam that goes slantwise over the right side of the map, 80 m away from the eye.
+  // A beam, 80 m long, that crosses the right side of the map at an angle.
   s.add_box({-0.05, 0, -40}, {0.05, 0.1, 40}, Stuff::kConcrete,
             {Vec3(28.5, 0.15, -28.3), Quat(Eigen::AngleAxisd(-0.785398, Vec3::UnitY()))});
   const Image with = renderer().draw(s.frame);

@@ -1,4 +1,4 @@
-// Videos and images: complete, or not there.
+// Tests of video and image files: each is complete, or does not exist.
 #include "render/sinks.h"
 
 #include <sys/stat.h>
@@ -37,7 +37,7 @@ void take_frames(FrameSink& sink, std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) sink.take(frame_number(i));
 }
 
-/// What a command prints; empty if it cannot be run.
+/// Returns the standard output of a command; empty if the command cannot be run.
 std::string output_of(const std::string& command) {
   std::FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
   if (pipe == nullptr) return {};
@@ -49,7 +49,7 @@ std::string output_of(const std::string& command) {
 
 bool has_ffmpeg() { return !output_of("ffprobe -version").empty(); }
 
-/// The search path for programs, while a test wants another.
+/// Replaces the search path for programs (PATH) during its lifetime.
 class SearchPath {
  public:
   explicit SearchPath(const std::filesystem::path& folder) : before_(std::getenv("PATH")) {
@@ -69,7 +69,7 @@ TEST(VideoSink, WritesAPlayableFileWithEveryFrame) {
   const std::filesystem::path path = folder / "new/v.mp4";
   const auto sink = make_picture_sink(path, renderer());
   take_frames(*sink, 9);
-  EXPECT_FALSE(std::filesystem::exists(path)) << "nothing stands there until it is complete";
+  EXPECT_FALSE(std::filesystem::exists(path)) << "no file until it is complete";
   sink->finish();
   const std::string probed = output_of(
       "ffprobe -v error -count_frames -select_streams v:0 -show_entries "
@@ -79,7 +79,7 @@ TEST(VideoSink, WritesAPlayableFileWithEveryFrame) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "new"), {}), 1);
 }
 
-TEST(VideoSink, AnyRateAndWebMTooSayWhatTheirColoursAre) {
+TEST(VideoSink, ColorTagsAreWrittenForAnyRateAndForWebM) {
   if (!has_ffmpeg()) GTEST_SKIP() << "package ffmpeg is not installed";
   const TestFolder folder;
   for (const auto& [name, codec] : {std::pair{"v.mp4", "h264"}, {"v.webm", "vp9"}}) {
@@ -94,7 +94,7 @@ TEST(VideoSink, AnyRateAndWebMTooSayWhatTheirColoursAre) {
   }
 }
 
-TEST(VideoSink, ColoursComeBackAsTheyWere) {
+TEST(VideoSink, ColorsAreReadBackAsTheyWereDrawn) {
   if (!has_ffmpeg()) GTEST_SKIP() << "package ffmpeg is not installed";
   const TestFolder folder;
   const std::string video = (folder / "v.mp4").string(), back = (folder / "b.png").string();
@@ -112,7 +112,7 @@ TEST(VideoSink, ColoursComeBackAsTheyWere) {
   }
 }
 
-TEST(VideoSink, GivenUpItLeavesNothing) {
+TEST(VideoSink, WithoutFinishLeavesNoFile) {
   if (!has_ffmpeg()) GTEST_SKIP() << "package ffmpeg is not installed";
   const TestFolder folder;
   {
@@ -134,7 +134,7 @@ TEST(VideoSink, AMissingFfmpegIsAnErrorThatNamesThePackage) {
   EXPECT_TRUE(folder.contents().empty());
 }
 
-TEST(VideoSink, AnFfmpegThatFailsIsAnErrorWithItsWordsAndNotASignal) {
+TEST(VideoSink, AnFfmpegThatFailsIsAnErrorWithItsMessageAndNotASignal) {
   const TestFolder folder;
   std::filesystem::create_directories(folder / "bin");
   const std::filesystem::path program = folder / "bin" / "ffmpeg";
@@ -152,7 +152,7 @@ TEST(VideoSink, AnFfmpegThatFailsIsAnErrorWithItsWordsAndNotASignal) {
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
 }
 
-TEST(VideoSink, AnFfmpegThatFailsWithoutSayingSoInItsStatusIsAnErrorToo) {
+TEST(VideoSink, AnFfmpegThatFailsWithExitStatusZeroIsAnErrorToo) {
   const TestFolder folder;
   std::filesystem::create_directories(folder / "bin");
   const std::filesystem::path program = folder / "bin" / "ffmpeg";
@@ -165,7 +165,7 @@ TEST(VideoSink, AnFfmpegThatFailsWithoutSayingSoInItsStatusIsAnErrorToo) {
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
 }
 
-TEST(VideoSink, WhatFfmpegComplainsOfIsAnErrorBeforeTheNextFrameIsDrawn) {
+TEST(VideoSink, AMessageOfFfmpegIsAnErrorBeforeTheNextFrameIsDrawn) {
   const TestFolder folder;
   std::filesystem::create_directories(folder / "bin");
   const std::filesystem::path program = folder / "bin" / "ffmpeg";
@@ -173,7 +173,7 @@ TEST(VideoSink, WhatFfmpegComplainsOfIsAnErrorBeforeTheNextFrameIsDrawn) {
   ::chmod(program.c_str(), 0755);
   const SearchPath fake(folder / "bin");
   const auto sink = make_picture_sink(folder / "v.mp4", renderer());
-  // More frames than the connection holds: ffmpeg has spoken when it takes the last.
+  // More frames than the pipe holds: ffmpeg has printed its message before it reads the last.
   EXPECT_THROW(take_frames(*sink, 60), FileError);
   EXPECT_EQ(folder.contents(), std::vector<std::string>{"bin"});
 }
@@ -226,7 +226,7 @@ TEST(ImageSink, AFolderThatIsResumedKeepsItsPictures) {
   EXPECT_THROW(make_picture_sink(folder / "v.mp4", renderer(), true), InputError);
 }
 
-/// Part of an image.
+/// Returns a part of an image.
 Image cut(const Image& all, int left, int top, int width, int height) {
   Image part{width, height, {}};
   for (int y = top; y < top + height; ++y) {
@@ -236,7 +236,7 @@ Image cut(const Image& all, int left, int top, int width, int height) {
   return part;
 }
 
-TEST(SheetSink, LaysFramesEvenlyOverTheRunSideBySide) {
+TEST(SheetSink, HasFramesEvenlySpacedOverTheRunSideBySide) {
   const TestFolder folder;
   const auto sink = make_sheet_sink(folder / "s.png", renderer(), {0, 8, 5}, false);
   take_frames(*sink, 9);
@@ -252,7 +252,7 @@ TEST(SheetSink, LaysFramesEvenlyOverTheRunSideBySide) {
   }
 }
 
-TEST(SheetSink, WritesTheTimesAndKeepsWhatARunThatEndsSoonerCameTo) {
+TEST(SheetSink, WritesTheTimesAndIsSmallerIfTheRunEndsEarly) {
   const TestFolder folder;
   const auto sink = make_sheet_sink(folder / "s.png", renderer(), {0, 8, 5});
   take_frames(*sink, 3);
@@ -263,7 +263,7 @@ TEST(SheetSink, WritesTheTimesAndKeepsWhatARunThatEndsSoonerCameTo) {
   EXPECT_NE(cut(sheet, 0, 0, 160, 90), renderer().draw(*frame_number(0)));
 }
 
-TEST(SheetSink, WhatCannotBeIsRefused) {
+TEST(SheetSink, AWrongFileNameOrCountIsRefused) {
   const TestFolder folder;
   EXPECT_THROW(make_sheet_sink(folder / "s.mp4", renderer(), {0, 8, 5}), InputError);
   EXPECT_THROW(make_sheet_sink(folder / "s.png", renderer(), {0, 3, 5}), InputError);

@@ -69,16 +69,16 @@ void SyntheticFrame::add_ball(const Vec3& center, double radius_m, Stuff stuff) 
 
 void SyntheticFrame::add_chunk(const Vec3& center, double size_m, Stuff stuff, Random& random) {
   const Vec3 half = 0.5 * size_m * Vec3(1, random.uniform(0.5, 1), random.uniform(0.5, 0.9));
-  // Somewhere in the solid it broke off.
-  const Vec3 home(random.uniform(-9, 9), random.uniform(0, 6), random.uniform(-4, 4));
+  // Position of the chunk in the rest frame of the solid that it broke from.
+  const Vec3 center_R(random.uniform(-9, 9), random.uniform(0, 6), random.uniform(-4, 4));
   std::vector<Vec3> points;
-  for (int i = 0; i < 11; ++i) points.push_back(home + random.direction().cwiseProduct(half));
+  for (int i = 0; i < 11; ++i) points.push_back(center_R + random.direction().cwiseProduct(half));
   ConvexPolyhedron polyhedron = make_hull(points);
   for (ConvexPolyhedron::Face& face : polyhedron.faces) {
     face.kind = random.below(5) > 0 ? FaceKind::kInterior : FaceKind::kSurface;
   }
   const Quat turn(Eigen::AngleAxisd(random.uniform(0, 6.28), random.direction()));
-  add(mesh_of(std::move(polyhedron), stuff), home, {center, turn});
+  add(mesh_of(std::move(polyhedron), stuff), center_R, {center, turn});
 }
 
 Frame house_frame(int chunks) {

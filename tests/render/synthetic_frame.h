@@ -1,4 +1,4 @@
-// Frames without a simulation: boxes, balls and broken pieces put where a test wants them.
+// Frames without a simulation: boxes, balls and broken pieces at given positions.
 #pragma once
 
 #include "engine/base/random.h"
@@ -13,12 +13,12 @@ class SyntheticFrame {
  public:
   SyntheticFrame();
 
-  /// A box by its corners in the world; its rest frame is the world.
+  /// Adds a box by its corners in the world; its rest frame is the world.
   void add_box(const Vec3& min, const Vec3& max, Stuff stuff);
-  /// The same box, turned and moved away from where it was made.
+  /// Adds a box by its corners in its rest frame, with the pose X_WB of its centre of mass.
   void add_box(const Vec3& min, const Vec3& max, Stuff stuff, const Pose& X_WB);
   void add_ball(const Vec3& center, double radius_m, Stuff stuff);
-  /// A random chunk, about `size_m` wide; most of its faces are broken ones.
+  /// Adds a random chunk, about `size_m` wide; most of its faces are broken ones.
   void add_chunk(const Vec3& center, double size_m, Stuff stuff, Random& random);
 
   Frame frame;
@@ -29,7 +29,8 @@ class SyntheticFrame {
   std::shared_ptr<MeshStore> meshes_ = std::make_shared<MeshStore>();
 };
 
-/// A two-storey house with a corner missing, rubble before it: what videos show.
+/// Returns a two-storey house with a corner missing and `chunks` pieces of rubble in front of it,
+/// seen as in a typical video.
 Frame house_frame(int chunks);
 
 }  // namespace sunder::render

@@ -1,4 +1,4 @@
-// A folder of a test's own, gone after it.
+// A temporary folder of one test, removed with its object.
 #pragma once
 
 #include <unistd.h>

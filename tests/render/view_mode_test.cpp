@@ -1,4 +1,4 @@
-// What every view mode makes of a frame.
+// Tests of the view modes.
 #include "render/view_mode.h"
 
 #include <set>
@@ -11,7 +11,7 @@
 namespace sunder::render {
 namespace {
 
-/// A block that moves, a beam that is held, a ball asleep.
+/// Returns a frame of a moving block, a static beam and a sleeping ball.
 Frame sample() {
   SyntheticFrame synthetic;
   synthetic.add_box(Vec3(0, 0, 0), Vec3(1, 1, 1), Stuff::kBrick);
@@ -35,12 +35,12 @@ Vec3f color_of(const Frame& frame, std::size_t instance) {
   return (*frame.materials)[material_of(frame, instance)].surface.color;
 }
 
-TEST(ViewMode, MaterialsAreTheFrameItself) {
+TEST(ViewMode, MaterialsLeavesTheFrameUnchanged) {
   const Frame frame = sample();
   EXPECT_EQ(&ViewMode("materials").shown(frame), &frame);
 }
 
-TEST(ViewMode, AnUnknownOneIsRefusedWithWhatIsAllowed) {
+TEST(ViewMode, AnUnknownModeIsRefusedWithTheAllowedOnes) {
   try {
     ViewMode("x-ray");
     ADD_FAILURE();
@@ -49,14 +49,14 @@ TEST(ViewMode, AnUnknownOneIsRefusedWithWhatIsAllowed) {
   }
 }
 
-TEST(ViewMode, WhatIsHeldAwakeAndAsleepHasThreeColors) {
+TEST(ViewMode, StaticAwakeAndSleepingBodiesHaveThreeColors) {
   const Frame frame = sample();
   ViewMode mode("asleep");
   const Frame shown = mode.shown(frame);
   EXPECT_NE(color_of(shown, 0), color_of(shown, 1));
   EXPECT_NE(color_of(shown, 1), color_of(shown, 2));
   EXPECT_NE(color_of(shown, 2), color_of(shown, 0));
-  EXPECT_TRUE(shown.dust.empty()) << "it would veil the colours";
+  EXPECT_TRUE(shown.dust.empty()) << "dust would hide the colours";
   Frame woken = frame;
   woken.bodies[2].asleep = false;
   EXPECT_EQ(color_of(mode.shown(woken), 2), color_of(shown, 0));
@@ -92,8 +92,8 @@ TEST(ViewMode, AColorStaysFromFrameToFrameAndNoMeshIsMadeForIt) {
   EXPECT_EQ(after.meshes, frame.meshes);
 }
 
-/// The sample with a force of 1 kN upwards, and all of it in one island but for the beam.
-Frame looked_into() {
+/// Returns the sample with a contact force of 1 kN upwards, and one island without the beam.
+Frame inspected_sample() {
   Frame frame = sample();
   frame.debris.resize(2);
   auto inside = std::make_shared<Inspection>();
@@ -105,11 +105,11 @@ Frame looked_into() {
   return frame;
 }
 
-TEST(ViewMode, WhatLooksInsideRefusesAFrameThatDoesNotSay) {
+TEST(ViewMode, AModeThatNeedsInspectionRefusesAFrameWithoutIt) {
   for (const char* name : {"contacts", "stress", "islands", "broadphase"}) {
     ViewMode mode(name);
     EXPECT_TRUE(mode.needs_inspection());
-    EXPECT_NO_THROW(mode.shown(looked_into())) << name;
+    EXPECT_NO_THROW(mode.shown(inspected_sample())) << name;
     try {
       mode.shown(sample());
       ADD_FAILURE() << name;
@@ -122,22 +122,22 @@ TEST(ViewMode, WhatLooksInsideRefusesAFrameThatDoesNotSay) {
   EXPECT_FALSE(ViewMode("exploded").needs_inspection());
 }
 
-TEST(ViewMode, AContactIsMarkedWhereAndAlongWhatItPressesAndMoreIfItPressesMore) {
-  Frame frame = looked_into();
+TEST(ViewMode, AContactMarkShowsPointDirectionAndSizeOfItsForce) {
+  Frame frame = inspected_sample();
   ViewMode mode("contacts");
   const Frame shown = mode.shown(frame);
   EXPECT_EQ(color_of(shown, 0), color_of(shown, 2)) << "solids are grey";
   EXPECT_TRUE(shown.debris.empty());
-  ASSERT_EQ(mode.marks().spindles.size(), 1u) << "where nothing contact_forces nothing is marked";
+  ASSERT_EQ(mode.marks().spindles.size(), 1u) << "a contact without force has no mark";
   const Mark one = mode.marks().spindles[0];
   EXPECT_EQ(one.center_W, Vec3f(1, 2, 3));
   EXPECT_GT(one.half_axes_W.col(0).y(), 2 * one.half_axes_W.col(1).norm());
   EXPECT_NEAR(one.half_axes_W.determinant(),
               one.half_axes_W.col(0).norm() * one.half_axes_W.col(1).squaredNorm(), 1e-6)
-      << "turned inside out, it would not be seen";
-  auto pressed = std::make_shared<Inspection>(*frame.inspection);
-  pressed->contacts[0].force_W *= 8;
-  frame.inspection = pressed;
+      << "a mark turned inside out would be invisible";
+  auto stronger = std::make_shared<Inspection>(*frame.inspection);
+  stronger->contacts[0].force_W *= 8;
+  frame.inspection = stronger;
   mode.shown(frame);
   const Mark more = mode.marks().spindles[0];
   EXPECT_NEAR(more.half_axes_W.col(0).norm(), 2 * one.half_axes_W.col(0).norm(), 1e-5);
@@ -146,27 +146,27 @@ TEST(ViewMode, AContactIsMarkedWhereAndAlongWhatItPressesAndMoreIfItPressesMore)
 
 TEST(ViewMode, StressGoesFromBlueToRedAndIsGreyWhereThereIsNone) {
   ViewMode mode("stress");
-  const Frame shown = mode.shown(looked_into());
+  const Frame shown = mode.shown(inspected_sample());
   EXPECT_GT(color_of(shown, 0).z(), 3 * color_of(shown, 0).x());
   EXPECT_GT(color_of(shown, 1).x(), 3 * color_of(shown, 1).z());
   EXPECT_EQ(color_of(shown, 2).x(), color_of(shown, 2).z());
   EXPECT_TRUE(mode.marks().empty());
 }
 
-TEST(ViewMode, AnIslandHasOneColorWhichIsDarkWhereItSleeps) {
-  Frame frame = looked_into();
+TEST(ViewMode, AnIslandHasOneColorWhichIsDarkerWhileItSleeps) {
+  Frame frame = inspected_sample();
   ViewMode mode("islands");
   const Frame shown = mode.shown(frame);
   EXPECT_LT(color_of(shown, 2).norm(), color_of(shown, 0).norm());
   frame.bodies[2].asleep = false;
   const Frame awake = mode.shown(frame);
   EXPECT_EQ(color_of(awake, 2), color_of(awake, 0));
-  EXPECT_NE(color_of(awake, 1), color_of(awake, 0)) << "what is held is of no island";
+  EXPECT_NE(color_of(awake, 1), color_of(awake, 0)) << "a static body is in no island";
 }
 
 TEST(ViewMode, EveryBoxOfTheBroadPhaseIsDrawnInTheColorOfItsBodysState) {
   ViewMode mode("broadphase");
-  mode.shown(looked_into());
+  mode.shown(inspected_sample());
   ASSERT_EQ(mode.marks().boxes.size(), 2u);
   const Mark& wide = mode.marks().boxes[1];
   EXPECT_EQ(wide.center_W, Vec3f(3, 0.5f, 0.5f));

@@ -1,4 +1,4 @@
-// Accuracy asked for in metres, and warnings where a preset is not enough.
+// Tests of the error target in metres, and of warnings where a preset is not accurate enough.
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kG = 9.81;
 
-/// A stack of unit boxes of steel; with a heavier top, if there is one, of so many times the
-/// weight.
+/// Returns a stack of unit boxes of 2 kg/m³, with a top box of `top` times the weight of the
+/// others.
 Scene stack(int count, double top, const std::string& preset, std::vector<std::string> set = {}) {
   std::string text = "[scene]\ndescription = \"x\"\nduration_s = 3\n[accuracy]\n";
   text += "[[material]]\nname = \"light\"\nlike = \"steel\"\ndensity_kg_m3 = 2\n";
@@ -44,7 +44,7 @@ double deepest_m(Scene scene) {
   return deepest;
 }
 
-TEST(Accuracy, AStackCountsByItsHeightAndAHeavyTopByItsWeight) {
+TEST(Accuracy, TheLoadOfAStackIsItsWeightInBodies) {
   const Stack even = find_stacks(stack(10, 1, "accurate")).deepest;
   EXPECT_EQ(even.bodies, 10u);
   EXPECT_NEAR(even.load, 10, 1e-9);
@@ -82,7 +82,7 @@ TEST(Accuracy, SubstepsFollowFromTheTargetAndItIsMet) {
   }
 }
 
-TEST(Accuracy, AWarningNamesTheSubstepsThatWouldDo) {
+TEST(Accuracy, AWarningNamesTheSubstepsThatAreEnough) {
   EXPECT_EQ(warning_of(stack(10, 1, "draft")), "");
   EXPECT_EQ(warning_of(stack(10, 1, "accurate")), "");
   const Scene heavy = stack(10, 10000, "accurate");
@@ -95,7 +95,7 @@ TEST(Accuracy, AWarningNamesTheSubstepsThatWouldDo) {
   EXPECT_EQ(warning_of(held), "");
 }
 
-/// Stacked boxes of 2 kg/m³, so that none breaks.
+/// Returns stacked boxes of 2 kg/m³, too light to break.
 Scene tower(int count, double size_m, const std::string& duration_s, const std::string& preset,
             std::vector<std::string> set = {}) {
   const std::string size = std::to_string(size_m);
@@ -107,8 +107,8 @@ Scene tower(int count, double size_m, const std::string& duration_s, const std::
   return scenes::parse_scene(text, "tower.toml", {preset, std::move(set)});
 }
 
-/// How far any body went from where it began, in its own size; none may sleep.
-double wandered(Scene scene, double size_m) {
+/// Returns the largest displacement of a body from its start, over `size_m`. Sleeping is off.
+double largest_displacement(Scene scene, double size_m) {
   solver::RigidOptions options;
   options.gravity_W = scene.gravity_W;
   options.sleeping = false;
@@ -125,8 +125,8 @@ double wandered(Scene scene, double size_m) {
   return most / size_m;
 }
 
-/// What the warning tells the user to set.
-std::vector<std::string> named(const Scene& scene) {
+/// Returns the settings that the warning names.
+std::vector<std::string> settings_of_warning(const Scene& scene) {
   const Accuracy stand = accuracy_against_buckling(scene, scenes::kMaxSubsteps);
   char text[80];
   std::snprintf(text, sizeof text, "%d substeps of dt 1/%.4g s", stand.substeps, 1 / stand.dt_s);
@@ -136,7 +136,7 @@ std::vector<std::string> named(const Scene& scene) {
   return {"accuracy.substeps=" + std::to_string(stand.substeps), text};
 }
 
-/// A box of 1 kg under a slab of a million.
+/// Returns a box of 1 kg under a slab of a million kg.
 Scene under_a_million(std::vector<std::string> set = {}) {
   std::string text = "[scene]\ndescription = \"x\"\nduration_s = 3\n[accuracy]\n";
   for (const auto& [name, density] : {std::pair("light", "1"), {"heavy", "30000"}})
@@ -149,45 +149,46 @@ Scene under_a_million(std::vector<std::string> set = {}) {
   return scenes::parse_scene(text, "million.toml", {"accurate", std::move(set)});
 }
 
-/// How far something wanders as its preset has it, and with what the warning names.
-struct Wandered {
-  std::vector<std::string> set;  ///< What the warning names.
+/// Largest displacement with the settings of the preset, and with those that the warning names.
+struct Displacements {
+  std::vector<std::string> set;  ///< Settings that the warning names.
   double before = 0, then = 0;
 };
 
-/// `make` makes the scene with what is to be set.
+/// Measures the displacements of the scene that `make` returns for given settings.
 template <class Make>
-Wandered as_named(const char* what, double size_m, const Make& make) {
-  Wandered wander{named(make(std::vector<std::string>()))};
-  wander.before = wandered(make(std::vector<std::string>()), size_m);
-  wander.then = wandered(make(wander.set), size_m);
-  std::printf("%s: moves by %.2g sides, by %.2g before\n", what, wander.then, wander.before);
-  return wander;
+Displacements measure_displacements(const char* what, double size_m, const Make& make) {
+  Displacements displacements{settings_of_warning(make(std::vector<std::string>()))};
+  displacements.before = largest_displacement(make(std::vector<std::string>()), size_m);
+  displacements.then = largest_displacement(make(displacements.set), size_m);
+  std::printf("%s: moves by %.2g sides, by %.2g before\n", what, displacements.then,
+              displacements.before);
+  return displacements;
 }
 
-TEST(Accuracy, WhatIsAMillionTimesAsHeavyStandsWithTheSubstepsThatTheWarningNames) {
+TEST(Accuracy, ATopAMillionTimesAsHeavyStandsWithTheSubstepsThatTheWarningNames) {
   const auto make = [](auto set) { return under_a_million(std::move(set)); };
-  const Wandered top = as_named("a top of 1e6 weights", 1, make);
+  const Displacements top = measure_displacements("a top of 1e6 weights", 1, make);
   EXPECT_GT(top.before, 0.1);
   EXPECT_LT(top.then, 0.02);
   EXPECT_EQ(warning_of(under_a_million(top.set)), "");
 }
 
-TEST(Accuracy, WhatIsTooSmallForItsSubstepsStandsWithThoseThatTheWarningNames) {
+TEST(Accuracy, BodiesTooSmallForTheirSubstepsStandWithThoseThatTheWarningNames) {
   const auto make = [](auto set) { return tower(12, 0.001, "3", "draft", std::move(set)); };
-  const Wandered boxes = as_named("12 boxes of a millimetre", 0.001, make);
+  const Displacements boxes = measure_displacements("12 boxes of a millimetre", 0.001, make);
   EXPECT_GT(boxes.before, 0.1);
   EXPECT_LT(boxes.then, 0.02);
 }
 
 TEST(Accuracy, ATowerFallsAwakeBelowTheSubstepsThatTheWarningNamesAndStandsWithThem) {
   const auto make = [](auto set) { return tower(40, 0.1, "30", "accurate", std::move(set)); };
-  const Wandered boxes = as_named("tower of 40", 0.1, make);
+  const Displacements boxes = measure_displacements("tower of 40", 0.1, make);
   EXPECT_GT(boxes.before, 1);
   EXPECT_LT(boxes.then, 0.02);
 }
 
-/// A steel ball, let go on a chain from 10 m above the ground.
+/// Returns a steel ball released on a chain that hangs from 10 m above the ground.
 Scene wrecking_ball(const std::string& links, const std::string& preset,
                     std::vector<std::string> set = {}) {
   const std::string text =
@@ -200,16 +201,16 @@ Scene wrecking_ball(const std::string& links, const std::string& preset,
   return scenes::parse_scene(text, "chain.toml", {preset, std::move(set)});
 }
 
-/// The most that the end of the chain is too far away, of its length.
+/// Returns the largest elongation of the chain, over its length.
 double stretches(Scene scene) {
   Simulation simulation(std::move(scene), solver::make_rigid_physics({}),
                         fracture::make_pattern_breaker());
-  const Vec3 way(-6.4, -2.2, 0), end_R = -0.6 * way.normalized();
+  const Vec3 chain(-6.4, -2.2, 0), end_R = -0.6 * chain.normalized();
   double worst = -1;
   while (const FramePtr frame = simulation.next()) {
     if (frame->bodies.empty()) continue;
     const Vec3 end_W = frame->bodies.back().X_WB * end_R;
-    worst = std::max(worst, (end_W - Vec3(0, 10, 0)).norm() / (way + end_R).norm() - 1);
+    worst = std::max(worst, (end_W - Vec3(0, 10, 0)).norm() / (chain + end_R).norm() - 1);
   }
   return worst;
 }
@@ -243,8 +244,10 @@ TEST(Accuracy, AChainThatWouldTearIsWarnedOfOnceWithTheSubstepsThatHoldIt) {
   EXPECT_LT(std::abs(then), 1e-2);
 }
 
-/// A thousand tonnes on ropes, with a box of 1 kg between; how far they sink, of 10 m.
-double hung_by_a_box(std::vector<std::string> set, std::vector<std::string>* named = nullptr) {
+/// Returns the largest displacement, over 10 m, of a thousand tonnes on ropes with a box of 1 kg
+/// between the ropes. Stores the settings that the warning names in `named`.
+double displacement_on_ropes(std::vector<std::string> set,
+                             std::vector<std::string>* named = nullptr) {
   const Scene scene = scenes::parse_scene(R"(
 [scene]
 description = "x"
@@ -280,12 +283,12 @@ to = [0, 15, 0]
     std::snprintf(text, sizeof text, "accuracy.dt_s=%.17g", hold.dt_s);
     *named = {"accuracy.substeps=" + std::to_string(hold.substeps), text};
   }
-  return wandered(scene, 10);
+  return largest_displacement(scene, 10);
 }
 
 TEST(Accuracy, RopesThatTurnALightBoxBetweenThemHoldWithTheSubstepsThatTheWarningNames) {
   std::vector<std::string> named;
-  const double before = hung_by_a_box({}, &named), then = hung_by_a_box(named);
+  const double before = displacement_on_ropes({}, &named), then = displacement_on_ropes(named);
   std::printf("1e6 kg on ropes with 1 kg between: sinks by %.2g, by %.2g with %s\n", before, then,
               named[0].c_str());
   EXPECT_GT(before, 0.3);

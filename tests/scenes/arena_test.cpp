@@ -1,4 +1,4 @@
-// Arenas: curved stone that is seen, in convexes that fit together.
+// Tests of arenas: curved visual meshes in convexes that fit together.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -42,7 +42,7 @@ TEST(Loft, AnythingTurnedHasTheVolumeOfItsProfile) {
               sides * (1 * (1 + 2 + 4) / 3.0 + 2 * (4 + 1 + 0.25) / 3.0), 1e-12);
 }
 
-TEST(Loft, WhatIsRoundIsShadedRoundAndEdgesStaySharp) {
+TEST(Loft, RoundSurfacesAreShadedSmoothlyAndEdgesStaySharp) {
   const std::vector<Vec2> profile = {{1, 0}, {1, 2}};
   const PolygonMesh mesh = loft(turned(circle(24), profile));
   ASSERT_EQ(mesh.faces.size(), 26u);
@@ -83,7 +83,7 @@ TEST(Arena, HasAMillionVerticesOnMeshesThatAreCurved) {
   EXPECT_GE(faces, 500000u);
 }
 
-/// How many faces there are across an edge from another in the same plane.
+/// Returns the number of edges between two faces in one plane.
 std::size_t needless_faces(const PolygonMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> face_of;
   const auto each_edge = [&](auto visit) {
@@ -106,7 +106,7 @@ std::size_t needless_faces(const PolygonMesh& mesh) {
   return needless;
 }
 
-// But for the flat bands of archivolts, which are parted where their edges bend.
+// Exceptions are the flat bands of archivolts, which are divided where their edges bend.
 TEST(Arena, SplitsNoFlatFace) {
   const Scene scene = arena("");
   std::size_t faces = 0, needless = 0;
@@ -168,7 +168,7 @@ TEST(Arena, WedgesMeetAndDoNotOverlap) {
   EXPECT_EQ(*std::max_element(island.begin(), island.end()), 1u) << "arcades, and seats";
 }
 
-TEST(Arena, WhatCannotBeBuiltIsRefused) {
+TEST(Arena, AnImpossibleArenaIsRefused) {
   EXPECT_NE(message_of("tiers = 16").find("reach up to 11 m, above the gallery"), std::string::npos)
       << message_of("tiers = 16");
   EXPECT_NE(message_of("ends = 13").find("up to twice the sides"), std::string::npos);

@@ -1,5 +1,5 @@
-// Figures of a scene file that are each allowed, but contradict each other or do nothing: they are
-// refused with their places, their keys and what to do.
+// Tests of values in scene files that are each allowed, but contradict each other or have no
+// effect: they are refused with place, key and remedy.
 #include <gtest/gtest.h>
 
 #include "tests/scenes/refusal.h"
@@ -7,7 +7,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// The message that a scene of these lines, from line 3 on, is refused with; empty if it is not.
+/// Returns the message that refuses a scene with these lines from line 3 on; empty if accepted.
 std::string refusal_of(const std::string& lines, std::vector<std::string> set = {}) {
   LoadOptions options;
   options.set = std::move(set);
@@ -46,7 +46,7 @@ TEST(BadMaterials, WhoseFiguresContradictEachOtherAreRefused) {
       "[[material]]\n");
 }
 
-TEST(BadMaterials, FiguresThatNoStressReachesContradictNothing) {
+TEST(BadMaterials, UnlimitedOrConsistentStrengthsAreAccepted) {
   for (const char* figures :
        {"tensile_Pa = inf", "tensile_Pa = 3e6\ncompressive_Pa = 0", "compressive_Pa = 1",
         "tensile_Pa = 3e6\ncompressive_Pa = 3e6", "youngs_Pa = 1e9\nshear_Pa = 1e8"}) {

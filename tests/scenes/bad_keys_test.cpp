@@ -1,5 +1,5 @@
-// Every key of what is in a scene and of what happens there, given as it must not be: absent where
-// it is needed, of another type, out of range. The tables of the reader itself say what there is.
+// Tests of every key of objects and scripts with faults: missing where required, of a wrong type,
+// out of range. The keys are those of the tables of the reader.
 #include <cmath>
 #include <map>
 
@@ -76,11 +76,11 @@ constexpr int kLinesBefore = 5;
 
 struct Answer {
   std::string said;
-  int line = 0;  ///< Of the key, or of the table if it is absent.
+  int line = 0;  ///< Line of the key, or of the table if the key is absent.
 };
 
-/// What is said of a sample with one key changed, or taken out.
-Answer say(const Sample& sample, const std::string& key, const std::string* value) {
+/// Returns the message about a sample with one key changed, or removed if `value` is null.
+Answer answer_to(const Sample& sample, const std::string& key, const std::string* value) {
   Lines lines = sample.lines;
   if (value) {
     lines[key] = *value;
@@ -104,10 +104,10 @@ Answer say(const Sample& sample, const std::string& key, const std::string* valu
   return answer;
 }
 
-/// Values that a key cannot have.
+/// Returns values that are wrong for a key.
 std::vector<std::string> wrong_values(const Key& key) {
   using Kind = Key::Kind;
-  std::vector<std::string> wrong = {"{ x = 1 }"};  // no key but those of tables is one
+  std::vector<std::string> wrong = {"{ x = 1 }"};  // no key but those of tables has a table
   const bool vector = key.kind == Kind::kVector || key.kind == Kind::kColor;
   const bool number = key.kind == Kind::kInteger || key.kind == Kind::kCount ||
                       key.kind == Kind::kNumber || key.kind == Kind::kSeed;
@@ -132,18 +132,18 @@ std::vector<std::string> wrong_values(const Key& key) {
   return wrong;
 }
 
-TEST(BadKeys, EverySampleIsGoodAsItIs) {
+TEST(BadKeys, EverySampleIsAcceptedUnchanged) {
   for (const Sample& sample : samples())
-    EXPECT_EQ(say(sample, "no such", nullptr).said, "") << sample.table;
+    EXPECT_EQ(answer_to(sample, "no such", nullptr).said, "") << sample.table;
 }
 
-TEST(BadKeys, AWrongValueOfAnyIsAnsweredWithItsLineAndWhatIsAllowed) {
+TEST(BadKeys, AWrongValueIsRefusedWithItsLineAndTheAllowedValues) {
   std::size_t tried = 0;
   for (const Sample& sample : samples()) {
     for (const Key& key : sample.keys) {
       if (key.kind == Key::Kind::kTable) continue;
       for (const std::string& value : wrong_values(key)) {
-        const Answer answer = say(sample, std::string(key.name), &value);
+        const Answer answer = answer_to(sample, std::string(key.name), &value);
         const std::string start =
             "bad.toml:" + std::to_string(answer.line) + ": " + std::string(key.name) + " in ";
         EXPECT_TRUE(answer.said.starts_with(start) &&
@@ -156,11 +156,11 @@ TEST(BadKeys, AWrongValueOfAnyIsAnsweredWithItsLineAndWhatIsAllowed) {
   EXPECT_GT(tried, 250u);
 }
 
-TEST(BadKeys, OneThatIsNeededIsMissed) {
+TEST(BadKeys, AMissingRequiredKeyIsNamed) {
   for (const Sample& sample : samples()) {
     for (const Key& key : sample.keys) {
       if (!key.required) continue;
-      const Answer answer = say(sample, std::string(key.name), nullptr);
+      const Answer answer = answer_to(sample, std::string(key.name), nullptr);
       const std::string start = "bad.toml:" + std::to_string(answer.line) + ": missing key '" +
                                 std::string(key.name) + "' in " + std::string(sample.table) + ": ";
       EXPECT_TRUE(answer.said.starts_with(start)) << "said: " << answer.said;
@@ -168,28 +168,30 @@ TEST(BadKeys, OneThatIsNeededIsMissed) {
   }
 }
 
-TEST(BadKeys, OneThatNobodyKnowsIsNamed) {
+TEST(BadKeys, AnUnknownKeyIsNamed) {
   const std::string value = "1";
   for (const Sample& sample : samples()) {
-    const Answer answer = say(sample, "nonesuch", &value);
+    const Answer answer = answer_to(sample, "nonesuch", &value);
     const std::string start = "bad.toml:" + std::to_string(answer.line) +
                               ": unknown key 'nonesuch' in " + std::string(sample.table);
     EXPECT_TRUE(answer.said.starts_with(start)) << "said: " << answer.said;
   }
 }
 
-TEST(BadKeys, NamesOfNothingAreAnsweredWithWhatThereIs) {
-  const std::string nobody = "\"y\"", no_stuff = "\"stel\"";
+TEST(BadKeys, AnUnknownNameIsRefusedWithASuggestion) {
+  const std::string nobody = "\"y\"", no_material = "\"stel\"";
   for (const Sample& sample : samples()) {
     for (const Key& key : sample.keys) {
-      const bool stuff = key.kind == Key::Kind::kMaterial;
+      const bool is_material = key.kind == Key::Kind::kMaterial;
       const bool refers = sample.header == "[[joint]]" || sample.header == "[[script.remove]]" ||
                           sample.header == "[[script.drive]]" || sample.header == "[[script.move]]";
-      if (!stuff && !(refers && key.kind == Key::Kind::kText)) continue;
-      const Answer answer = say(sample, std::string(key.name), stuff ? &no_stuff : &nobody);
-      const std::string start = "bad.toml:" + std::to_string(answer.line) +
-                                (stuff ? ": unknown material 'stel'; did you mean 'steel'?"
-                                       : ": no solid or ball is named 'y'; did you mean 'x'?");
+      if (!is_material && !(refers && key.kind == Key::Kind::kText)) continue;
+      const Answer answer =
+          answer_to(sample, std::string(key.name), is_material ? &no_material : &nobody);
+      const std::string start =
+          "bad.toml:" + std::to_string(answer.line) +
+          (is_material ? ": unknown material 'stel'; did you mean 'steel'?"
+                       : ": no solid or ball is named 'y'; did you mean 'x'?");
       EXPECT_TRUE(answer.said.starts_with(start))
           << sample.table << " " << key.name << "\nsaid: " << answer.said;
     }

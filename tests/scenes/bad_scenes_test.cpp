@@ -1,4 +1,4 @@
-// Faults in scene files: each is answered with its place, its key and what is allowed.
+// Tests of faults in scene files: each is refused with its place, its key and the allowed values.
 #include <gtest/gtest.h>
 
 #include "tests/scenes/refusal.h"
@@ -163,7 +163,7 @@ constexpr Fault kFaults[] = {
     {"[[ball]]\nname = \"\"",
      "bad.toml:4: name in [[ball]] is the string \"\"; allowed: a text "
      "that is not empty"},
-    // What is missing, or too much
+    // Missing or superfluous keys
     {"[[solid]]\nposition = [0, 0, 0]", "bad.toml:3: missing key 'structure' in [[solid]]"},
     {"[[material]]\nfriction = 1", "bad.toml:3: missing key 'name' in [[material]]"},
     {"[[script.shot]]\nfrom = [0, 0, 0]\nvelocity = [1, 0, 0]",
@@ -270,7 +270,7 @@ constexpr Fault kFaults[] = {
     {"[view", "bad.toml:3: "},
 };
 
-TEST(BadScenes, AreRefusedWithPlaceKeyAndWhatIsAllowed) {
+TEST(BadScenes, AreRefusedWithPlaceKeyAndTheAllowedValues) {
   ASSERT_EQ(refusal(kGood), "");
   for (const Fault& fault : kFaults) {
     const std::string message = refusal(std::string(kGood) + fault.lines + "\n");

@@ -1,4 +1,4 @@
-// Bodies from meshes, what is kept of them between runs, and the ways materials break.
+// Tests of bodies from meshes, their cache between runs, and the fracture patterns of materials.
 #include <filesystem>
 #include <fstream>
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHead = "[scene]\ndescription = \"x\"\n";
 
-/// A folder for meshes, with a cache of its own.
+/// A folder for meshes, with its own cache.
 class Bodies : public testing::Test {
  protected:
   void SetUp() override {
@@ -45,7 +45,7 @@ class Bodies : public testing::Test {
       return error.what();
     }
   }
-  std::vector<fs::path> kept() const {
+  std::vector<fs::path> cached_files() const {
     std::vector<fs::path> files;
     if (!fs::exists(folder_ / "cache")) return files;
     for (const auto& entry : fs::directory_iterator(folder_ / "cache")) {
@@ -57,7 +57,7 @@ class Bodies : public testing::Test {
   fs::path folder_;
 };
 
-/// A box as OBJ, its vertices from number `first` on.
+/// Returns a box as OBJ, with vertices numbered from `first`.
 std::string box_obj(const Vec3& min, const Vec3& max, int first = 1) {
   std::string text;
   for (int i = 0; i < 8; ++i) {
@@ -121,7 +121,7 @@ TEST_F(Bodies, PartsThatDoNotTouchAreSolidsOfTheirOwn) {
   EXPECT_EQ(scene.solids[1].name, "pair.1");
 }
 
-TEST_F(Bodies, AreDecomposedOnceAndRecalledBitForBit) {
+TEST_F(Bodies, AreDecomposedOnceAndCachedBitForBit) {
   write("box.obj", box_obj({0, 0, 0}, {1, 2, 3}));
   const std::string lines = "[[body]]\nmesh = \"box.obj\"\nnodes = 5\n";
   const auto bytes = [&](const Scene& scene) {
@@ -130,30 +130,30 @@ TEST_F(Bodies, AreDecomposedOnceAndRecalledBitForBit) {
     return out.bytes;
   };
   const std::vector<std::byte> made = bytes(load(lines));
-  ASSERT_EQ(kept().size(), 1u);
-  const std::vector<std::byte> file = read_file(kept()[0]);
+  ASSERT_EQ(cached_files().size(), 1u);
+  const std::vector<std::byte> file = read_file(cached_files()[0]);
   EXPECT_EQ(bytes(load(lines)), made);
-  EXPECT_EQ(kept().size(), 1u);
+  EXPECT_EQ(cached_files().size(), 1u);
   load("[[body]]\nmesh = \"box.obj\"\nnodes = 6\n");
-  EXPECT_EQ(kept().size(), 2u) << "other options, another entry";
+  EXPECT_EQ(cached_files().size(), 2u) << "other options, another entry";
 }
 
-TEST_F(Bodies, ADamagedEntryIsMadeAnewAndWrittenOver) {
+TEST_F(Bodies, ADamagedCacheEntryIsReplaced) {
   write("box.obj", box_obj({0, 0, 0}, {1, 2, 3}));
   const std::string lines = "[[body]]\nmesh = \"box.obj\"\nnodes = 4\n";
   load(lines);
-  ASSERT_EQ(kept().size(), 1u);
-  const std::vector<std::byte> good = read_file(kept()[0]);
+  ASSERT_EQ(cached_files().size(), 1u);
+  const std::vector<std::byte> good = read_file(cached_files()[0]);
   for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{17}, good.size() / 2}) {
     std::vector<std::byte> bad = good;
     bad[at] ^= std::byte{0x40};
-    write_file(kept()[0], bad);
+    write_file(cached_files()[0], bad);
     EXPECT_EQ(load(lines).solids.size(), 1u);
-    EXPECT_EQ(read_file(kept()[0]), good) << at;
+    EXPECT_EQ(read_file(cached_files()[0]), good) << at;
   }
-  write_file(kept()[0], std::vector<std::byte>(good.begin(), good.begin() + 30));
+  write_file(cached_files()[0], std::vector<std::byte>(good.begin(), good.begin() + 30));
   load(lines);
-  EXPECT_EQ(read_file(kept()[0]), good);
+  EXPECT_EQ(read_file(cached_files()[0]), good);
 }
 
 TEST_F(Bodies, FaultsAreNamedWithTheirPlace) {
@@ -196,7 +196,7 @@ TEST_F(Patterns, EveryKindCanBeNamed) {
   }
 }
 
-TEST_F(Patterns, HarderBlowsStartFromTheMaterialsOwn) {
+TEST_F(Patterns, StrongerImpactsStartFromThePatternOfTheMaterial) {
   const Scene scene = load(
       "[[material]]\nname = \"x\"\nimpact_radius_m = 0.5\n"
       "pattern = { kind = \"voronoi\", cells = 30, falloff = 3 }\n"

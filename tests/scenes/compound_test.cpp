@@ -1,4 +1,4 @@
-// Compounds of listed parts, and copies in rows, rings and mirrors: against closed forms.
+// Tests of compounds of listed parts, and of copies in rows, rings and mirrors.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -41,7 +41,7 @@ Vec3 com_W(const Scene& scene, const Solid& solid) {
   return solid.X_WR * mass_of(solid.compound, scene.materials).com_R;
 }
 
-TEST(CompoundStructure, WeighsWhatOverlapsOnceByTheFirstOfItsParts) {
+TEST(CompoundStructure, CountsOverlapsOnceWithTheDensityOfTheFirstPart) {
   const std::string steel = part("box", "material = \"steel\""),
                     wood = part("box", "material = \"wood\"\nposition = [0.75, 0, 0]");
   for (const bool steel_first : {true, false}) {
@@ -57,7 +57,7 @@ TEST(CompoundStructure, WeighsWhatOverlapsOnceByTheFirstOfItsParts) {
 }
 
 TEST(CompoundStructure, BondsPartsByTheAreaTheyShare) {
-  // A cube turned by an eighth on a slab, a column on it, a prism flush with the slab's side.
+  // A cube turned by 45 degrees on a slab, a column on it, a prism flush with the slab's side.
   const Scene scene =
       scene_of(kCompound + part("box", "size_m = [4, 1, 4]") +
                part("box", "position = [0, 1, 0]\nrotation_deg = [0, 45, 0]") +
@@ -83,7 +83,7 @@ TEST(CompoundStructure, AnArchHasTheVolumeOfItsChordsAndStandsOnItsFeet) {
   EXPECT_EQ(scene.solids.size(), 1u);
 }
 
-TEST(CompoundStructure, MayHoldCompounds) {
+TEST(CompoundStructure, MayHaveCompoundsAsParts) {
   const std::string group =
       "[[solid.part]]\nstructure = \"compound\"\nmirror = \"x\"\n"
       "[[solid.part.part]]\nstructure = \"box\"\nposition = [0.5, 0, 0]\n"
@@ -94,7 +94,7 @@ TEST(CompoundStructure, MayHoldCompounds) {
   EXPECT_NEAR(bonded_m2(scene.solids[0].compound), 4, 1e-9);
 }
 
-TEST(CompoundStructure, HoldsAMeshByTheFaceItStandsOn) {
+TEST(CompoundStructure, BondsAMeshByTheFaceThatItStandsOn) {
   const Scene scene = scene_of(kCompound + part("box", "size_m = [2, 1, 2]") +
                                part("mesh", "mesh = \"column:0.3,2\"\nposition = [0, 1, 0]"));
   ASSERT_EQ(scene.solids.size(), 1u);
@@ -103,7 +103,7 @@ TEST(CompoundStructure, HoldsAMeshByTheFaceItStandsOn) {
   EXPECT_NEAR(bounds(compound).extent().y(), 3, 1e-9);
 }
 
-TEST(CompoundStructure, RefusesAPartThatHoldsOnToNothing) {
+TEST(CompoundStructure, RefusesAPartWithoutABond) {
   const std::string box = part("box");
   EXPECT_EQ(refusal(kCompound + box + part("box", "position = [0, 1, 0]") +
                     part("box", "position = [1.25, 0, 0]")),
@@ -112,11 +112,11 @@ TEST(CompoundStructure, RefusesAPartThatHoldsOnToNothing) {
             "[[solid]] of its own");
   EXPECT_TRUE(refusal(kCompound + box + part("box", "position = [1, 1, 0]"))
                   .starts_with("x.toml:8: [[solid.part]] does not hold on"))
-      << "an edge holds nothing";
+      << "a shared edge is no bond";
   EXPECT_EQ(refusal(kCompound + box + part("box", "position = [1, 0.5, 0]")), "");
 }
 
-TEST(CompoundStructure, RefusesWhatCannotBeMeant) {
+TEST(CompoundStructure, RefusesFaultsWithTheirPlace) {
   EXPECT_EQ(refusal(kCompound), "x.toml:3: missing [[solid.part]]: a compound has at least one");
   EXPECT_TRUE(refusal(kCompound + std::string("part = 3")).starts_with("x.toml:5: [[part]] is"));
   EXPECT_TRUE(refusal(kCompound + part("house", "storey = 3"))
@@ -151,7 +151,7 @@ TEST(CompoundStructure, RefusesWhatCannotBeMeant) {
           .starts_with("x.toml:3: 8e+05 parts, more than 200000"));
 }
 
-TEST(Copies, StandInARowUnderNamesOfTheirOwn) {
+TEST(Copies, StandInARowAndHaveUniqueNames) {
   const Scene scene = scene_of(
       "[[solid]]\nstructure = \"box\"\nname = \"post\"\nposition = [1, 0, 0]\n"
       "repeat = [{ count = 3, step_m = [2, 0, 0] }, { count = 2, step_m = [0, 0, 5] }]\n"
@@ -183,19 +183,19 @@ TEST(Copies, StandInARingWithTheirFrontsInward) {
   }
 }
 
-/// A wedge that is like none of its mirror images, turned in space.
+/// A wedge that differs from each of its mirror images, rotated about all axes.
 const char* const kWedge =
     "structure = \"prism\"\noutline_m = [[0, 0], [2, 0], [0.3, 1]]\ndepth_m = 0.7\n"
     "position = [3, 1, 2]\nrotation_deg = [20, 50, -35]\n";
 
 TEST(Copies, AreMirroredPointByPoint) {
-  const std::pair<const char*, std::vector<Vec3>> kWays[] = {
+  const std::pair<const char*, std::vector<Vec3>> kMirrors[] = {
       {"x", {{-1, 1, 1}}},
       {"y", {{1, -1, 1}}},
       {"z", {{1, 1, -1}}},
       {"xz", {{-1, 1, 1}, {1, 1, -1}, {-1, 1, -1}}}};
   const Vec3 at(0.5, 0.25, -1);
-  for (const auto& [mirror, signs] : kWays) {
+  for (const auto& [mirror, signs] : kMirrors) {
     const Scene scene = scene_of("[[solid]]\n" + std::string(kWedge) +
                                  "velocity = [1, 2, 3]\nangular_velocity = [4, 5, 6]\n" +
                                  "mirror = \"" + mirror + "\"\nmirror_at_m = [0.5, 0.25, -1]");
@@ -247,7 +247,7 @@ TEST(Copies, OfStructuresOfSeveralSolidsKeepTheirOrder) {
   }
 }
 
-TEST(Anchored, AllHoldsEveryPartOnEverySide) {
+TEST(Anchored, AllAnchorsEveryPartOnEverySide) {
   for (const char* lines : {"[[solid]]\nstructure = \"house\"\nanchored = \"all\"",
                             "[[body]]\nmesh = \"torus:1,0.3\"\nanchored = \"all\""}) {
     const Scene scene = scene_of(lines);

@@ -1,4 +1,4 @@
-// Exported pieces, checked by a program that has nothing of this one: check_pieces.py.
+// Tests of exported pieces by check_pieces.py, which shares no code with the program.
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -12,8 +12,8 @@
 namespace sunder::tests {
 namespace {
 
-/// Breaks a mesh and exports the pieces: a folder of OBJ files in double, or GLB in single
-/// precision. Holds every edge, and the volume, of what was written to account.
+/// Breaks a mesh and exports the pieces as a folder of OBJ files in double precision, or as GLB in
+/// single precision. Checks every edge and the volume of the exported files.
 void expect_closed(const std::string& mesh, const std::string& pattern, const char* output,
                    double within) {
   const Folder folder;
@@ -42,7 +42,7 @@ TEST(Exports, HaveEveryEdgeInTwoFacesAndTheVolumeOfThePieces) {
   }
 }
 
-TEST(Exports, OfDamagedMeshesDoSoToo) {
+TEST(Exports, OfDamagedMeshesHaveEveryEdgeInTwoFaces) {
   for (const auto& file : test::meshes("nasty")) {
     if (file.string().starts_with(test::made_folder().string()))
       expect_closed(file.string(), "voronoi:20", "pieces/", 1e-12);

@@ -1,4 +1,4 @@
-// Films as users make them: cameras, pace and sheets, of scenes, takes and stored frames alike.
+// Tests of `sunder render`: cameras, rates and sheets of scenes, recordings and stored frames.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +19,7 @@ std::string bytes_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A take of a ball that breaks a block.
+/// A recording of a ball that breaks a block.
 class Film : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -40,24 +40,24 @@ at = [0, 1, 0]
 speed_m_s = 40
 )";
     const Outcome outcome =
-        sunder("simulate " + scene() + " --preset draft --quiet --take " + take());
+        sunder("simulate " + scene() + " --preset draft --quiet --take " + recording());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   }
   static void TearDownTestSuite() { delete shared_; }
   static std::string scene() { return *shared_ / "block.toml"; }
-  static std::string take() { return *shared_ / "block.take"; }
+  static std::string recording() { return *shared_ / "block.take"; }
 
-  /// The picture that it writes.
-  std::string drawn(const std::string& what) {
+  /// Returns the bytes of the picture that `sunder render` writes.
+  std::string drawn(const std::string& arguments) {
     const std::string picture = folder_ / "x.png";
-    const Outcome outcome = sunder("render " + what + " --size 64x48 --quiet -o " + picture);
-    EXPECT_EQ(outcome.exit_code, 0) << what << "\n" << outcome.err;
+    const Outcome outcome = sunder("render " + arguments + " --size 64x48 --quiet -o " + picture);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.err;
     return bytes_of(picture);
   }
-  void expect_refused(const std::string& what, const std::string& word) {
-    const Outcome outcome = sunder("render " + what + " --quiet");
-    EXPECT_EQ(outcome.exit_code, 2) << what;
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << what << "\n" << outcome.err;
+  void expect_refused(const std::string& arguments, const std::string& word) {
+    const Outcome outcome = sunder("render " + arguments + " --quiet");
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << arguments << "\n" << outcome.err;
   }
 
   Folder folder_;
@@ -67,38 +67,38 @@ speed_m_s = 40
 };
 Folder* Film::shared_ = nullptr;
 
-TEST_F(Film, ATakeIsSeenFromAnywhereByEveryCamera) {
+TEST_F(Film, ARecordingIsDrawnByEveryCamera) {
   const std::string path = folder_ / "path.toml";
   std::ofstream(path) << "[[key]]\ntime_s = 0\neye = [9, 2, 0]\n[[key]]\ntime_s = 0.5\n"
                          "fov_deg = 20\ntarget = [0, 0, 0]\n";
   std::set<std::string> pictures;
   for (const std::string& view :
        std::initializer_list<std::string>{"fixed", "orbit:2", "follow:shot", "auto", path})
-    pictures.insert(drawn(take() + " --frames 20 --view " + view));
-  pictures.insert(drawn(take() + " --frames 20 --set view.ground_color=[1,0,0]"));
+    pictures.insert(drawn(recording() + " --frames 20 --view " + view));
+  pictures.insert(drawn(recording() + " --frames 20 --set view.ground_color=[1,0,0]"));
   EXPECT_EQ(pictures.size(), 6u);
-  EXPECT_EQ(pictures.count(drawn(take() + " --frames 19:20 --view auto")), 1u)
-      << "a camera comes to the same place whatever part is drawn";
+  EXPECT_EQ(pictures.count(drawn(recording() + " --frames 19:20 --view auto")), 1u)
+      << "the view does not depend on the frames drawn before";
 }
 
-TEST_F(Film, WhatDoesNotApplyIsRefusedByName) {
+TEST_F(Film, OptionsThatDoNotApplyAreRefusedByName) {
   const std::string x = " -o " + folder_ / "x.png";
-  expect_refused(take() + " --set solid.0.size_m=[1,1,1]" + x, "--set solid.0.size_m=[1,1,1]");
-  expect_refused(take() + " --set foo.bar=1" + x, "view.fov_deg=30");
-  expect_refused(take() + " --set view.key.0.time_s=1" + x, "--view FILE.toml");
-  expect_refused(take() + " --preset draft" + x, "has been simulated");
-  expect_refused(take() + " --view spiral" + x, "fixed | orbit[:SECONDS]");
-  expect_refused(take() + " --view nowhere.toml" + x, "nowhere.toml");
-  expect_refused(take() + " --speed 0" + x, "--speed");
-  expect_refused(take() + " --fps 0" + x, "--fps");
-  expect_refused(take() + " --sheet 4 -o " + folder_ / "x.mp4", "X.png");
+  expect_refused(recording() + " --set solid.0.size_m=[1,1,1]" + x, "--set solid.0.size_m=[1,1,1]");
+  expect_refused(recording() + " --set foo.bar=1" + x, "view.fov_deg=30");
+  expect_refused(recording() + " --set view.key.0.time_s=1" + x, "--view FILE.toml");
+  expect_refused(recording() + " --preset draft" + x, "has been simulated");
+  expect_refused(recording() + " --view spiral" + x, "fixed | orbit[:SECONDS]");
+  expect_refused(recording() + " --view nowhere.toml" + x, "nowhere.toml");
+  expect_refused(recording() + " --speed 0" + x, "--speed");
+  expect_refused(recording() + " --fps 0" + x, "--fps");
+  expect_refused(recording() + " --sheet 4 -o " + folder_ / "x.mp4", "X.png");
   const std::string frame = SUNDER_ROOT "/tests/golden/stack.frame";
   for (const char* flag : {"--frames 2", "--speed 0.5", "--fps 30", "--sheet 4"})
     expect_refused(frame + " " + flag + x, "is one frame");
   const std::string path = folder_ / "path.toml";
   const auto path_says = [&](const std::string& text, const std::string& word) {
     std::ofstream(path) << text;
-    expect_refused(take() + " --view " + path + x, word);
+    expect_refused(recording() + " --view " + path + x, word);
   };
   path_says("# none\n", "[[key]] or more");
   path_says("[[key]]\ntime_s = 1\n[[key]]\ntime_s = 1\n", "path.toml:4: time_s in [[key]] is 1");
@@ -106,9 +106,9 @@ TEST_F(Film, WhatDoesNotApplyIsRefusedByName) {
   path_says("[view]\n", "unknown key 'view'");
 }
 
-TEST_F(Film, ARunIsShownAtAnyPace) {
+TEST_F(Film, ARunIsShownAtAnyRate) {
   const auto pictures = [&](const std::string& options) {
-    const Outcome outcome = sunder("render " + take() + " --size 32x32 --quiet --json - " +
+    const Outcome outcome = sunder("render " + recording() + " --size 32x32 --quiet --json - " +
                                    options + " -o " + folder_ / "p/");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return std::get<std::int64_t>(parse_figures(outcome.out, "x").at("/pictures"));
@@ -119,18 +119,18 @@ TEST_F(Film, ARunIsShownAtAnyPace) {
   EXPECT_EQ(pictures("--frames :10 --fps 24"), 5);
 }
 
-TEST_F(Film, ASheetLaysPicturesOfAnySizeSideBySide) {
+TEST_F(Film, ASheetHasPicturesOfAnySizeSideBySide) {
   const std::string sheet = folder_ / "s.png";
   const Outcome outcome =
-      sunder("render " + take() + " --sheet 5 --size 65x49 --quiet -o " + sheet);
+      sunder("render " + recording() + " --sheet 5 --size 65x49 --quiet -o " + sheet);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string png = bytes_of(sheet);  // width and height are in bytes 16 to 23, high first
+  const std::string png = bytes_of(sheet);  // width and height are in bytes 16 to 23, big-endian
   ASSERT_GT(png.size(), 24u);
   EXPECT_EQ(static_cast<std::uint8_t>(png[19]), 3 * 65 + 2 * 4);
   EXPECT_EQ(static_cast<std::uint8_t>(png[23]), 2 * 49 + 4);
 }
 
-TEST_F(Film, ASceneMaySayWhereItsCameraGoes) {
+TEST_F(Film, ASceneMayDefineThePathOfItsCamera) {
   const std::string moving = folder_ / "moving.toml";
   std::filesystem::copy_file(scene(), moving);
   std::ofstream(moving, std::ios::app) << "[[view.key]]\ntime_s = 0\neye = [9, 2, 0]\n";

@@ -1,6 +1,5 @@
-// Whether goldens see what goes wrong, and say rightly whether it is the drawing or the simulation.
-// Faults are planted in what a golden is made of: its stored frame, its baseline, and how its scene
-// is set up.
+// Tests that goldens find faults and attribute them to the drawing or the simulation. Faults are
+// put into the parts of a golden: its stored frame, its baseline, and the setup of its scene.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,7 +27,7 @@ using Json = nlohmann::json;
 using render::Image;
 const fs::path kGoldens = fs::path(SUNDER_ROOT) / "tests/golden";
 
-/// A copy of a golden under another name in a folder, to be spoilt.
+/// A copy of a golden under another name in a folder, for tests to change.
 class Copy {
  public:
   Copy(const Folder& folder, const std::string& golden, const std::string& name)
@@ -36,10 +35,10 @@ class Copy {
     for (const char* extension : {".frame", ".png", ".json"}) {
       fs::copy(kGoldens / (golden + extension), file(extension));
     }
-    std::ifstream book(kGoldens / "hashes.txt");
+    std::ifstream hashes(kGoldens / "hashes.txt");
     std::ofstream copy(folder / "hashes.txt", std::ios::app);
     const std::string of_golden = "frames/" + golden + "/";
-    for (std::string line; std::getline(book, line);) {
+    for (std::string line; std::getline(hashes, line);) {
       if (!line.starts_with(of_golden)) continue;
       copy << "frames/" << name << "/" << line.substr(of_golden.size()) << "\n";
     }
@@ -53,11 +52,11 @@ class Copy {
   void change_picture(const std::function<Image(const Image&)>& change) const {
     render::write_png(file(".png"), change(render::read_png(file(".png"))));
   }
-  /// As --set does.
+  /// Sets keys of the scene, as --set does.
   void change_scene(const std::vector<std::string>& set) const {
     edit([&](Json& recipe) { recipe["set"] = set; });
   }
-  /// More at the end of the scene's file.
+  /// Appends text to the scene's file.
   void add_to_scene(const std::string& text) const {
     edit([&](Json& recipe) {
       const fs::path scene = scenes::scene_file(recipe["scene"]);
@@ -78,7 +77,7 @@ class Copy {
   std::string name_;
 };
 
-/// By golden: its verdicts by what they are about, the texts of those that failed.
+/// Returns the texts of the failed verdicts, by golden and by the subject of the verdict.
 std::map<std::string, std::map<std::string, std::string>> failures_in(const Folder& folder) {
   const Outcome outcome = sunder("golden test --json - --folder " + folder.path().string() +
                                  " --out " + folder / "out");
@@ -94,8 +93,8 @@ std::map<std::string, std::map<std::string, std::string>> failures_in(const Fold
   return failures;
 }
 
-/// A piece whose bounds are wrong, and nothing of which is seen: the shadow map that has to hold it
-/// has no texel left for the others.
+/// Adds an invisible piece with wrong, huge bounds: the shadow map that has to cover it has no
+/// texel left for other pieces.
 void lose_shadows(Frame& frame) {
   Mesh mesh = *(*frame.meshes)[frame.instances.front().mesh.value];
   mesh.vertices.resize(3);
@@ -119,9 +118,9 @@ void swap_materials(Frame& frame) {
   frame.materials = std::make_shared<const std::vector<Material>>(std::move(materials));
 }
 
-/// Of those that come off, the one that looks largest, but not the largest of all: that is a wall.
+/// Removes the piece with the largest apparent size. Static bodies, such as walls, are not removed.
 void lose_piece(Frame& frame) {
-  const auto looks = [&](const Instance& instance) {
+  const auto apparent_size = [&](const Instance& instance) {
     const FrameBody& body = frame.bodies[instance.body];
     if (body.is_static) return 0.0;
     const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
@@ -133,8 +132,8 @@ void lose_piece(Frame& frame) {
     const Vec3 at_W = body.X_WB * (mesh.X_RT * mesh.origin_T - body.com_R);
     return radius / (at_W - frame.view.eye_W).norm();
   };
-  const auto gone = std::ranges::max_element(frame.instances, {}, looks);
-  frame.instances.erase(gone);
+  const auto largest = std::ranges::max_element(frame.instances, {}, apparent_size);
+  frame.instances.erase(largest);
 }
 
 Image shifted(const Image& image) {
@@ -151,7 +150,7 @@ Image brighter(const Image& image) {
   return bright;
 }
 
-/// Every material of the library, one percent heavier.
+/// Returns every material of the library, one per cent denser, as TOML.
 std::string heavier_materials() {
   std::string text;
   for (const Material& material : scenes::builtin_materials()) {
@@ -171,7 +170,7 @@ std::vector<std::string> of_shots(const std::string& golden, const std::string& 
   return set;
 }
 
-TEST(GoldenFaults, EveryFaultInTheDrawingIsCaughtAndNamedAsThat) {
+TEST(GoldenFaults, EveryFaultInTheDrawingIsFoundAndAttributedToIt) {
   const Folder folder;
   const std::string golden = "column_row";
   const Copy none(folder, golden, "none");
@@ -191,7 +190,7 @@ TEST(GoldenFaults, EveryFaultInTheDrawingIsCaughtAndNamedAsThat) {
   }
 }
 
-TEST(GoldenFaults, EveryFaultInTheSimulationIsCaughtAndNamedAsThat) {
+TEST(GoldenFaults, EveryFaultInTheSimulationIsFoundAndAttributedToIt) {
   const Folder folder;
   const std::string golden = "column_row";
   const double next_to_z = std::nextafter(8.0, 9.0);
@@ -204,7 +203,7 @@ TEST(GoldenFaults, EveryFaultInTheSimulationIsCaughtAndNamedAsThat) {
   Copy(folder, golden, "one_bit").change_scene({"script.shot.0." + one_bit_off.str()});
   const auto failures = failures_in(folder);
   EXPECT_EQ(failures.size(), 4u);
-  // What stands differs at once; the first shot comes at 0.3 s, with frame 18 or the next.
+  // Gravity and density differ at once; the first shot comes at 0.3 s, in frame 18 or 19.
   for (const auto& [fault, failed] : failures) {
     EXPECT_FALSE(failed.contains("drawing")) << fault;
     const bool by_shot = fault == "slow_shots" || fault == "one_bit";
@@ -219,7 +218,7 @@ TEST(GoldenFaults, EveryFaultInTheSimulationIsCaughtAndNamedAsThat) {
   }
 }
 
-TEST(GoldenFaults, ACameraOrColorsThatAreOthersInTheSceneAreCaughtAndNamed) {
+TEST(GoldenFaults, ADifferentCameraOrColorsOfTheSceneAreFoundAndNamed) {
   const Folder folder;
   const std::string golden = "column_row";
   Copy(folder, golden, "none").change_scene({});
@@ -241,8 +240,8 @@ TEST(GoldenFaults, ACameraOrColorsThatAreOthersInTheSceneAreCaughtAndNamed) {
   for (const char* fault : {"eye", "color"}) EXPECT_EQ(failures.at(fault).size(), 1u) << fault;
 }
 
-// Twenty runs: the simulation's threads by the rasteriser's, in both kinds of contexts.
-TEST(GoldenFaults, NoNumberOfThreadsAndNoContextRaisesAFalseAlarm) {
+// Twenty runs: threads of the simulation by threads of the rasteriser, in both kinds of contexts.
+TEST(GoldenFaults, NoNumberOfThreadsAndNoContextGivesAFalseFailure) {
   struct Drawn {
     const char* gl;
     int threads;

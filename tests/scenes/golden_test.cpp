@@ -1,5 +1,5 @@
-// Goldens: what the stored frames and their scenes give today, and whether the comparison can tell
-// at all.
+// Tests of goldens: stored frames and their scenes give the stored pictures and states, and the
+// comparison tells different pictures apart.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 const fs::path kGoldens = fs::path(SUNDER_ROOT) / "tests/golden";
 
-/// What there is of that extension.
+/// Returns the files of goldens with this extension, sorted.
 std::vector<fs::path> goldens(const std::string& extension) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(kGoldens)) {
@@ -34,7 +34,7 @@ std::vector<fs::path> goldens(const std::string& extension) {
   return files;
 }
 
-/// A copy of a golden, whole.
+/// Copies all files of a golden.
 void copy_golden(const std::string& name, const Folder& folder) {
   for (const char* extension : {".frame", ".png", ".json"}) {
     fs::copy(kGoldens / (name + extension), folder.path());
@@ -42,8 +42,8 @@ void copy_golden(const std::string& name, const Folder& folder) {
   fs::copy(kGoldens / "hashes.txt", folder.path());
 }
 
-// Half a minute on two processors: it is what guards the whole.
-TEST(Golden, DrawingAndSimulationAreAsTheyWere) {
+// Takes half a minute on two processors.
+TEST(Golden, DrawingAndSimulationAreUnchanged) {
   const Folder folder;
   const Outcome outcome = sunder("golden test --out " + folder / "out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
@@ -62,7 +62,7 @@ TEST(Golden, EveryPairOfDifferentBaselinesIsToldApart) {
   }
 }
 
-TEST(Golden, EveryTextureAndEveryPassIsInOne) {
+TEST(Golden, EveryTextureAndEveryPassIsInAGolden) {
   std::set<Texture> textures;
   std::size_t debris = 0, dust = 0;
   for (const fs::path& file : goldens(".frame")) {
@@ -91,7 +91,7 @@ TEST(Golden, EveryTextureAndEveryPassIsInOne) {
   EXPECT_EQ(view_modes.size(), 10u);
 }
 
-TEST(Golden, TheBookHasStatesOfEveryPresetOfEveryGoldenThatIsSimulatedAndOfNoOther) {
+TEST(Golden, HashesAreOfEveryPresetOfEverySimulatedGoldenAndOfNoOther) {
   std::set<std::string> expected, found;
   for (const fs::path& file : goldens(".json")) {
     const std::string scene = Json::parse(scenes::read_text(file))["scene"];
@@ -100,14 +100,14 @@ TEST(Golden, TheBookHasStatesOfEveryPresetOfEveryGoldenThatIsSimulatedAndOfNoOth
       expected.insert("frames/" + file.stem().string() + "/" + preset);
     }
   }
-  std::ifstream book(kGoldens / "hashes.txt");
-  for (std::string line; std::getline(book, line);) {
+  std::ifstream hashes(kGoldens / "hashes.txt");
+  for (std::string line; std::getline(hashes, line);) {
     if (line.starts_with("frames/")) found.insert(line.substr(0, line.find(' ')));
   }
   EXPECT_EQ(found, expected);
 }
 
-TEST(Golden, TheCommandsThatAreSaidMakeTheSameGoldenAgain) {
+TEST(Golden, TheReportedCommandsMakeTheSameGoldenAgain) {
   const Folder first, second;
   const std::string record =
       "golden record box stack 3 --preset draft --set limits.dust=7 "
@@ -174,16 +174,16 @@ TEST(Golden, AWrongPictureFailsAndTheSimulationDoesNot) {
   EXPECT_NE(xml.find("tests=\"6\" failures=\"1\""), std::string::npos) << xml;
 }
 
-TEST(Golden, AcceptingTheSimulationLeavesTheDrawingAndTheRestOfTheBook) {
+TEST(Golden, AcceptingTheSimulationLeavesTheDrawingAndOtherHashes) {
   const Folder folder;
   copy_golden("stack", folder);
-  const std::string book = folder / "hashes.txt";
-  const std::string right = scenes::read_text(book);
+  const std::string hashes = folder / "hashes.txt";
+  const std::string right = scenes::read_text(hashes);
   std::string wrong = right;
   const std::size_t line = wrong.find("frames/stack/draft");
   char& digit = wrong[wrong.find('\n', line) - 1];
   digit = digit == '0' ? '1' : '0';
-  std::ofstream(book) << wrong;
+  std::ofstream(hashes) << wrong;
   const std::string recipe = scenes::read_text(folder / "stack.json");
   const std::string at = " --folder " + folder.path().string();
   const Outcome failed = sunder("golden test" + at);
@@ -192,11 +192,11 @@ TEST(Golden, AcceptingTheSimulationLeavesTheDrawingAndTheRestOfTheBook) {
             std::string::npos)
       << failed.out;
   EXPECT_EQ(sunder("golden accept stack" + at).exit_code, 0);
-  EXPECT_EQ(scenes::read_text(book), right);
+  EXPECT_EQ(scenes::read_text(hashes), right);
   EXPECT_EQ(scenes::read_text(folder / "stack.json"), recipe);
 }
 
-TEST(Golden, AcceptingAnotherCameraRecordsTheFrameAnew) {
+TEST(Golden, AcceptingAnotherCameraRecordsTheFrameAgain) {
   const Folder folder;
   copy_golden("stack", folder);
   Json recipe = Json::parse(scenes::read_text(folder / "stack.json"));
@@ -242,7 +242,7 @@ TEST(Golden, ACopiedProgramTestsAndAcceptsInTheWorkingDirectory) {
       << refusal;
 }
 
-TEST(Golden, AFileThatAsksForAPictureOfNoSizeOrHasNoEndIsRefused) {
+TEST(Golden, AFileWithAWrongSizeOrUnclosedBracketsIsRefused) {
   const Folder folder;
   copy_golden("glass", folder);
   Json recipe = Json::parse(scenes::read_text(folder / "glass.json"));
@@ -258,7 +258,7 @@ TEST(Golden, AFileThatAsksForAPictureOfNoSizeOrHasNoEndIsRefused) {
   }
 }
 
-TEST(Golden, ARecordingIsOfAFrameOfASceneOrOfAStoredFrame) {
+TEST(Golden, RecordAcceptsAFrameOfASceneOrAStoredFrameOnly) {
   const Folder folder;
   copy_golden("stack", folder);
   const std::string at = " --folder " + folder.path().string();

@@ -1,4 +1,4 @@
-// Ground of triangles: what a scene may say of it, how it is drawn, and what lies on it.
+// Tests of ground meshes: their keys in a scene, how they are drawn, and bodies at rest on them.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -29,7 +29,7 @@ std::string refusal(const std::string& text) {
   }
 }
 
-/// A file that is there while the test runs.
+/// A mesh file that exists during the lifetime of its object.
 class MeshFile {
  public:
   explicit MeshFile(const std::string& text)
@@ -49,7 +49,7 @@ FramePtr after(FrameSource& simulation, int frames) {
   return frame;
 }
 
-TEST(GroundMesh, HeightsAreTrianglesAboutTheMiddleWhereTheyAreGiven) {
+TEST(GroundMesh, HeightsBecomeTrianglesCentredAtTheirPosition) {
   const Scene scene = scene_of(
       "[[ground.mesh]]\nheights_m = [[1, 4, 2], [3, 2, 5]]\nspacing_m = 2\n"
       "position = [10, 1, 0]\nrepeat = { count = 2, step_m = [0, 0, 20] }\n");
@@ -64,7 +64,7 @@ TEST(GroundMesh, HeightsAreTrianglesAboutTheMiddleWhereTheyAreGiven) {
   }
 }
 
-TEST(GroundMesh, AMirroredOneStillFacesUp) {
+TEST(GroundMesh, AMirroredMeshStillFacesUp) {
   const Scene scene =
       scene_of("[[ground.mesh]]\nhills_m = 3\nwidth_m = 10\ndepth_m = 8\nmirror = \"x\"\n");
   ASSERT_EQ(scene.ground.meshes.size(), 2u);
@@ -77,7 +77,7 @@ TEST(GroundMesh, AMirroredOneStillFacesUp) {
   }
 }
 
-TEST(GroundMesh, HillsAreAsHighAsAskedForAndHangOnTheirSeed) {
+TEST(GroundMesh, HillsHaveTheirHeightAndDependOnTheirSeed) {
   const auto heights = [](const std::string& seed) {
     const Scene scene = scene_of(
         "[[ground.mesh]]\nhills_m = 4\nhill_length_m = 10\nwidth_m = 80\ndepth_m = 80\nseed = " +
@@ -92,7 +92,7 @@ TEST(GroundMesh, HillsAreAsHighAsAskedForAndHangOnTheirSeed) {
   EXPECT_EQ(one, heights("1"));
 }
 
-TEST(GroundMesh, HasTheFrictionBounceAndColourOfTheGroundUnlessItNamesAMaterial) {
+TEST(GroundMesh, HasTheFrictionRestitutionAndColourOfTheGroundUnlessItNamesAMaterial) {
   const Scene scene = scene_of(
       "[ground]\nfriction = 0.3\nrestitution = 0.2\n[view]\nground_color = [0.1, 0.2, 0.3]\n"
       "[[ground.mesh]]\nhills_m = 1\n[[ground.mesh]]\nhills_m = 1\nmaterial = \"stone\"\n");
@@ -111,7 +111,7 @@ TEST(GroundMesh, AFileMayBeOpenAndHaveFacesOfManyCorners) {
   EXPECT_EQ(scene.ground.meshes[0].vertices_W[4], Vec3(8, 2, 0));
 }
 
-TEST(GroundMesh, RefusesWhatIsNone) {
+TEST(GroundMesh, RefusesFaultsWithTheirPlace) {
   const std::string at = "x.toml:3: ";
   EXPECT_EQ(refusal("[[ground.mesh]]\nspacing_m = 1\n"),
             at + "[[ground.mesh]] has none of mesh, heights_m and hills_m; give one");
@@ -146,7 +146,7 @@ TEST(GroundMesh, RefusesFilesThatAreNoSurface) {
   EXPECT_NE(refusal(infinite.table()), "");
 }
 
-TEST(GroundMesh, IsDrawnAsOneBodyThatStands) {
+TEST(GroundMesh, IsDrawnAsOneStaticBody) {
   const auto simulation =
       make_simulation(scene_of("[[ground.mesh]]\nhills_m = 2\nwidth_m = 100\ndepth_m = "
                                "100\n[[ball]]\nposition = [0, 9, 0]\n"));
@@ -175,14 +175,14 @@ constexpr const char* kWallOnAHill =
     "[[solid]]\nstructure = \"box\"\nsize_m = [3, 4, 0.6]\nblock_m = 1\nposition = [0, -1.5, 0]\n"
     "anchored = \"bottom\"\nmaterial = \"concrete\"\n";
 
-TEST(GroundMesh, HoldsPiecesDebrisAndDustOfAWallThatBreaksOnIt) {
+TEST(GroundMesh, SupportsPiecesAndDebrisOfAWallThatBreaksOnIt) {
   const std::string shot =
       "[script]\n[[script.shot]]\ntime_s = 0.1\nfrom = [0.2, 1.5, 6]\nat = [0.2, 1.2, 0]\n"
       "speed_m_s = 60\nradius_m = 0.4\n[[script.blast]]\ntime_s = 0.6\nat = [-0.5, 1.6, 0.7]\n"
       "radius_m = 3\nimpulse_Ns_m2 = 6000\ncover = true\n";
   const Scene scene = scene_of(kWallOnAHill + shot, {"draft", {}});
   const std::vector<Vec3> ground = scene.ground.meshes[0].vertices_W;
-  /// Of the nearest corner: hills are smooth.
+  /// Height of the nearest vertex; hills are smooth.
   const auto height_m = [&](const Vec3& at) {
     const auto apart = [&](const Vec3& v) {
       return (v - at).cwiseProduct(Vec3(1, 0, 1)).squaredNorm();
@@ -217,7 +217,7 @@ TEST(GroundMesh, HoldsPiecesDebrisAndDustOfAWallThatBreaksOnIt) {
   }
   EXPECT_GT(pieces, 10u);
   EXPECT_GT(chips, 100u);
-  EXPECT_LT(below, chips / 20) << "those that came off under the ground, where the wall's foot is";
+  EXPECT_LT(below, chips / 20) << "debris of the wall's foot, below the ground";
 }
 
 }  // namespace

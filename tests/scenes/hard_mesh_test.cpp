@@ -1,4 +1,4 @@
-// Meshes that are hard on the commands: tangled, overlapping, or so large that work takes a while.
+// Tests of the commands on difficult meshes: tangled, overlapping, or large.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A ball of triangles whose vertices are moved at random by up to a part of its radius.
+/// Writes a triangulated unit ball, its vertices moved at random by up to `noise` along each axis.
 void write_ball(const std::string& file, std::uint32_t around, double noise, double x = 0,
                 bool append = false, std::uint32_t first = 1) {
   std::ofstream out(file, append ? std::ios::app : std::ios::out);
@@ -53,7 +53,7 @@ struct Box {
   bool from_inside = false;
 };
 
-/// Boxes of their own vertices, each face of four corners.
+/// Writes boxes that share no vertices, each face with four corners.
 void write_boxes(const std::string& file, const std::vector<Box>& boxes) {
   std::ofstream out(file);
   constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
@@ -101,13 +101,13 @@ TEST(HardMeshes, ATangledMeshGetsANewSurfaceOrIsRefused) {
   EXPECT_NE(refused.err.find("passes through itself"), std::string::npos) << refused.err;
 }
 
-TEST(HardMeshes, WhatOverlapsCountTwiceIsStated) {
+TEST(HardMeshes, TheVolumeThatOverlapsCountTwiceIsReported) {
   const Folder folder;
   const std::string file = folder / "balls.obj";
   write_ball(file, 24, 0);
   EXPECT_EQ(std::get<double>(broken(file).at("/volume_doubled_m3")), 0);
   write_ball(file, 24, 0, 1.0, true, 1 + 2 + 11 * 24);
-  // Balls of radius 1 at distance 1 have a lens of 5π/12 in common; these have flat faces.
+  // Balls of radius 1 at distance 1 have a lens of 5π/12 in common; flat faces make it smaller.
   const double lens = 5 * kPi / 12;
   const double doubled = std::get<double>(broken(file, "--nodes 2").at("/volume_doubled_m3"));
   EXPECT_LT(doubled, lens);
@@ -121,7 +121,7 @@ TEST(HardMeshes, NoPieceHasANegativeVolume) {
   const std::vector<std::vector<Box>> inputs = {
       {unit, inside_out},                                // every face both ways
       {unit, at_an_edge},                                // four faces about an edge
-      {unit, {Vec3::Ones(), Vec3::Constant(2)}},         // they touch in a vertex
+      {unit, {Vec3::Ones(), Vec3::Constant(2)}},         // two that touch in a vertex
       {unit, {Vec3(0, 0, 0.25), Vec3(0.5, 0.5, 0.75)}},  // one inside, with parts of faces equal
       {unit, {Vec3(0, 0, 0.25), Vec3(0.5, 0.5, 0.75), true}},
       {unit, unit},
@@ -144,8 +144,8 @@ TEST(HardMeshes, NoPieceHasANegativeVolume) {
   }
 }
 
-// With the usual number of nodes 1.5 to 6.4 % of these are left whole.
-TEST(HardMeshes, WhatWouldBeLeftWholeIsDecomposedWithMoreNodes) {
+// With the usual number of nodes 1.5 to 6.4 % of the volume of these meshes is not broken.
+TEST(HardMeshes, MeshesThatWouldNotBreakAreDecomposedWithMoreNodes) {
   const Folder folder;
   for (const std::uint64_t seed : {146u, 227u}) {
     const std::string file = folder / "hard.obj";
@@ -156,7 +156,7 @@ TEST(HardMeshes, WhatWouldBeLeftWholeIsDecomposedWithMoreNodes) {
   }
 }
 
-TEST(HardMeshes, LongWorkSaysHowFarItIsUnlessItIsQuiet) {
+TEST(HardMeshes, LongWorkReportsItsProgressUnlessQuiet) {
   const Folder folder;
   const std::string file = folder / "large.obj";
   write_ball(file, 600, 0);

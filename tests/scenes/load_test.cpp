@@ -1,4 +1,4 @@
-// What a good scene file becomes.
+// Tests of the scenes that valid scene files become.
 #include "scenes/load.h"
 
 #include <numbers>
@@ -66,7 +66,7 @@ TEST(Load, PlacesSolidsByTheirFootAndTurnsThem) {
   EXPECT_NEAR((corner_W - Vec3(12, 1, -1)).norm(), 0, 1e-12);
 }
 
-TEST(Load, AnAnchoredSolidStandsOnAFoundationThatIsHeld) {
+TEST(Load, AnAnchoredSolidStandsOnAnAnchoredFoundation) {
   const std::string box = "[[solid]]\nstructure = \"box\"\n";
   EXPECT_FALSE(scene_of(box).solids[0].compound.is_anchored());
   const Scene scene = scene_of(box + "anchored = \"bottom\"\n");
@@ -77,7 +77,7 @@ TEST(Load, AnAnchoredSolidStandsOnAFoundationThatIsHeld) {
   EXPECT_LT(bounds(compound).min.y(), 0) << "the foundation is in the ground";
 }
 
-TEST(Load, WhatIsGivenNoNameGetsOneOfItsOwn) {
+TEST(Load, UnnamedObjectsGetUniqueNames) {
   const std::string pane = "[[solid]]\nstructure = \"pane\"\n";
   const std::string box = "[[body]]\nmesh = \"box:1,1,1\"\n";
   const Scene scene = scene_of(pane + pane + pane + "name = \"pane 2\"\n" + box + box);
@@ -87,7 +87,7 @@ TEST(Load, WhatIsGivenNoNameGetsOneOfItsOwn) {
             (std::vector<std::string>{"pane", "pane 3", "pane 2", "box:1,1,1", "box:1,1,1 2"}));
 }
 
-TEST(Load, ANameThatIsGivenIsKeptFromWhatHasNone) {
+TEST(Load, AGivenNameIsNotUsedForUnnamedObjects) {
   const Scene scene = scene_of(
       "[[solid]]\nstructure = \"box\"\n[[ball]]\nname = \"box\"\n"
       "[[solid]]\nstructure = \"stack\"\ncount = 2\n[[solid]]\nstructure = \"stack\"\ncount = 2\n");
@@ -97,7 +97,7 @@ TEST(Load, ANameThatIsGivenIsKeptFromWhatHasNone) {
             (std::vector<std::string>{"box 2", "stack.0", "stack.1", "stack 2.0", "stack 2.1"}));
 }
 
-TEST(Load, TheMaterialsAreThereForScenesMadeInCode) {
+TEST(Load, BuiltinMaterialsAreAvailableToScenesMadeInCode) {
   Scene scene;
   scene.materials = builtin_materials();
   const Scene loaded = scene_of("");
@@ -123,7 +123,7 @@ TEST(Load, ShotsAreInOrderOfTimeAndAimed) {
   EXPECT_EQ(scene.shots[1].ball.velocity_W, Vec3(1, 2, 3));
 }
 
-TEST(Load, FlagsChangeKeysThatAreThereAndKeysThatAreNot) {
+TEST(Load, FlagsChangeGivenKeysAndAddOthers) {
   LoadOptions options;
   options.set = {"scene.seed=7", "ground.friction=0.25", "ball.1.position=[1, 2, 3]",
                  "ball.0.material=wood"};
@@ -140,7 +140,7 @@ TEST(Load, AScriptCanBeSwitchedOff) {
   EXPECT_EQ(scene_of(shot, {"realtime", {"script.enabled=false"}}).shots.size(), 0u);
 }
 
-TEST(Load, EverySceneOfTheCatalogueLoadsAndSaysWhatItIs) {
+TEST(Load, EverySceneOfTheCatalogueLoadsAndHasADescription) {
   const std::vector<CatalogEntry> entries = catalog();
   EXPECT_GE(entries.size(), 5u);
   for (const CatalogEntry& entry : entries) {

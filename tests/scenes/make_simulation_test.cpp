@@ -1,4 +1,4 @@
-// A scene and its simulation are wired together as the scene says.
+// Tests that a simulation is made as its scene and its options define.
 #include "scenes/make_simulation.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kHead = "[scene]\ndescription = \"x\"\nduration_s = 1\n";
 
-/// The last frame of a scene.
+/// Returns the last frame of a scene.
 FramePtr end_of(const Scene& scene, const SimulationOptions& options = {}) {
   const auto simulation = make_simulation(scene, options);
   FramePtr last;
@@ -40,7 +40,7 @@ TEST(MakeSimulation, GivesTheSolverTheScenesGravity) {
   }
 }
 
-TEST(MakeSimulation, WhoLooksInsideSeesTheWeightThatContactsBearAndChangesNothing) {
+TEST(MakeSimulation, InspectionHasTheForcesOfContactsAndDoesNotChangeTheState) {
   for (const char* planar : {"", "planar = true\n"}) {
     const Scene scene =
         parse_scene(std::string(kHead) + planar +
@@ -48,13 +48,13 @@ TEST(MakeSimulation, WhoLooksInsideSeesTheWeightThatContactsBearAndChangesNothin
                         "[[solid]]\nstructure = \"stack\"\ncount = 1\nmaterial = \"steel\"\n"
                         "position = [5, 0, 0]\n",
                     "stack.toml");
-    SimulationOptions look;
-    look.inspect = true;
-    const FramePtr last = end_of(scene, look), unseen = end_of(scene);
-    EXPECT_EQ(hash_state(*last), hash_state(*unseen));
-    EXPECT_EQ(unseen->inspection, nullptr);
+    SimulationOptions inspecting;
+    inspecting.inspect = true;
+    const FramePtr last = end_of(scene, inspecting), plain = end_of(scene);
+    EXPECT_EQ(hash_state(*last), hash_state(*plain));
+    EXPECT_EQ(plain->inspection, nullptr);
     ASSERT_NE(last->inspection, nullptr);
-    double up_N = 0;  // between things is counted once: 3 + 2 + 1 and 1 boxes' weight
+    double up_N = 0;  // each contact counts once: the weight of 3 + 2 + 1 and of 1 boxes
     double on_ground_N = 0;
     for (const FrameContact& contact : last->inspection->contacts) {
       const bool is_of_ground = contact.key_a == kGroundKey || contact.key_b == kGroundKey;
@@ -77,15 +77,15 @@ TEST(MakeSimulation, WhoLooksInsideSeesTheWeightThatContactsBearAndChangesNothin
   }
 }
 
-TEST(MakeSimulation, WhoLooksInsideSeesThatAColumnBearsMostAtItsFoot) {
+TEST(MakeSimulation, InspectionHasTheLargestStressAtTheFootOfAColumn) {
   const Scene scene =
       parse_scene(std::string(kHead) +
                       "[[solid]]\nstructure = \"box\"\nsize_m = [0.3, 6, 0.3]\nblock_m = 1\n"
                       "anchored = \"bottom\"\n",
                   "column.toml");
-  SimulationOptions look;
-  look.inspect = true;
-  const FramePtr first = make_simulation(scene, look)->next();
+  SimulationOptions inspecting;
+  inspecting.inspect = true;
+  const FramePtr first = make_simulation(scene, inspecting)->next();
   std::vector<std::pair<double, float>> by_height;
   for (std::size_t i = 0; i < first->instances.size(); ++i) {
     const Mesh& mesh = *(*first->meshes)[first->instances[i].mesh.value];
@@ -99,26 +99,27 @@ TEST(MakeSimulation, WhoLooksInsideSeesThatAColumnBearsMostAtItsFoot) {
   EXPECT_LT(by_height.front().second, 0.1);
 }
 
-TEST(MakeSimulation, RefusesAPlanarSceneMadeInCodeThatIsNone) {
+TEST(MakeSimulation, RefusesAPlanarSceneMadeInCodeThatLeavesThePlane) {
   Scene scene = parse_scene(std::string(kHead) + "[[ball]]\nposition = [0, 5, 1]\n", "x.toml");
   scene.planar = true;
   EXPECT_THROW(make_simulation(scene), InputError);
 }
 
-TEST(MakeSimulation, TellsWhatAPresetIsTooCoarseFor) {
+TEST(MakeSimulation, WarnsOfAPresetThatIsTooCoarse) {
   const Scene scene =
       parse_scene(std::string(kHead) + "[[solid]]\nstructure = \"stack\"\ncount = 200\n",
                   "tower.toml", {"draft", {}});
-  std::vector<std::string> told;
+  std::vector<std::string> warnings;
   SimulationOptions options;
-  options.warn = [&](const std::string& warning) { told.push_back(warning); };
+  options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
   make_simulation(scene, options);
-  ASSERT_EQ(told.size(), run_info(scene, "draft").warnings.size());
-  for (const std::string& warning : told) EXPECT_TRUE(warning.starts_with("tower: ")) << warning;
+  ASSERT_EQ(warnings.size(), run_info(scene, "draft").warnings.size());
+  for (const std::string& warning : warnings)
+    EXPECT_TRUE(warning.starts_with("tower: ")) << warning;
 }
 
-/// Whether the user is told something with all of these words in it.
-bool told(const Scene& scene, std::initializer_list<const char*> words) {
+/// Returns true if a warning of the scene has all of these words.
+bool has_warning(const Scene& scene, std::initializer_list<const char*> words) {
   for (const std::string& warning : run_info(scene).warnings)
     if (std::all_of(words.begin(), words.end(),
                     [&](const char* word) { return warning.find(word) != std::string::npos; }))
@@ -126,7 +127,7 @@ bool told(const Scene& scene, std::initializer_list<const char*> words) {
   return false;
 }
 
-TEST(MakeSimulation, RefusesWhatCannotBeRunWhicheverComesFirst) {
+TEST(MakeSimulation, RefusesInvalidOptionsAndScenes) {
   Scene scene = parse_scene(std::string(kHead) + "[[ball]]\n", "x.toml");
   SimulationOptions less_than_none;
   less_than_none.threads = -5;
@@ -136,23 +137,23 @@ TEST(MakeSimulation, RefusesWhatCannotBeRunWhicheverComesFirst) {
   EXPECT_THROW(make_simulation(scene), InputError);
 }
 
-TEST(MakeSimulation, TellsOfAStepThatIsLongerThanAFrame) {
+TEST(MakeSimulation, WarnsOfAStepThatIsLongerThanAFrame) {
   Scene scene = parse_scene(std::string(kHead) + "[[ball]]\n", "x.toml", {"draft", {}});
-  EXPECT_FALSE(told(scene, {"longer than a frame"}));
+  EXPECT_FALSE(has_warning(scene, {"longer than a frame"}));
   scene.accuracy.dt_s = 0.1;
-  EXPECT_TRUE(told(scene, {"0.1 s", "longer than a frame", "accuracy.dt_s"}));
+  EXPECT_TRUE(has_warning(scene, {"0.1 s", "longer than a frame", "accuracy.dt_s"}));
 }
 
-TEST(MakeSimulation, TellsOfWhatIsTooFarFromTheOriginForDebris) {
+TEST(MakeSimulation, WarnsOfBodiesTooFarFromTheOriginForDebris) {
   const auto ball_at = [](const char* x) {
     return parse_scene(
         std::string(kHead) + "[[ball]]\nname = \"far\"\nposition = [" + x + ", 1, 0]\n", "x.toml");
   };
   EXPECT_TRUE(run_info(ball_at("-30000")).warnings.empty());
-  EXPECT_TRUE(told(ball_at("-1e5"), {"'far' is 1e+05 m from the origin", "position"}));
+  EXPECT_TRUE(has_warning(ball_at("-1e5"), {"'far' is 1e+05 m from the origin", "position"}));
 }
 
-TEST(MakeSimulation, TellsOfWhatWouldGiveWayUnderTheHeaviestWhereverItIs) {
+TEST(MakeSimulation, WarnsOfBodiesThatTheHeaviestWouldCrush) {
   const auto under = [](const char* size_m, std::vector<std::string> set = {}) {
     return parse_scene(std::string(kHead) +
                            "[accuracy]\n[[ball]]\nname = \"marble\"\nradius_m = 0.01\n"
@@ -163,17 +164,17 @@ TEST(MakeSimulation, TellsOfWhatWouldGiveWayUnderTheHeaviestWhereverItIs) {
   };
   EXPECT_TRUE(run_info(under("[0.03, 0.03, 0.03]")).warnings.empty());
   const Scene heavy = under("[2, 2, 2]");
-  EXPECT_TRUE(told(heavy, {"'block' weighs", "'marble'", "64 substeps of dt 1/2340 s"}));
+  EXPECT_TRUE(has_warning(heavy, {"'block' weighs", "'marble'", "64 substeps of dt 1/2340 s"}));
   const Scene bears =
       under("[2, 2, 2]", {"accuracy.substeps=64", "accuracy.dt_s=0.000427350427350"});
-  EXPECT_FALSE(told(bears, {"weighs"}));
+  EXPECT_FALSE(has_warning(bears, {"weighs"}));
 }
 
-TEST(MakeSimulation, NoSceneThatComesWithTheProgramAsksForTooMuch) {
+TEST(MakeSimulation, NoSceneOfTheCatalogueHasTheseWarnings) {
   for (const CatalogEntry& entry : catalog()) {
     const Scene scene = load_scene(entry.name, {"draft", {}});
     for (const char* word : {"longer than a frame", "weighs", "from the origin"})
-      EXPECT_FALSE(told(scene, {word})) << entry.name;
+      EXPECT_FALSE(has_warning(scene, {word})) << entry.name;
   }
 }
 

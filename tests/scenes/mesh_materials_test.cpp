@@ -1,4 +1,4 @@
-// What a file calls its parts gives them materials of the scene.
+// Tests of the materials that a scene gives to the named parts of a mesh file.
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -46,8 +46,8 @@ class MeshMaterials : public testing::Test {
   fs::path folder_;
 };
 
-/// A box as OBJ, its vertices from number `first` on; `before` comes before its faces, and
-/// `before_last` before the last of them, which is its top.
+/// Returns a box as OBJ with vertices numbered from `first`. `before` is put before its faces, and
+/// `before_last` before the last face, the top.
 std::string box_obj(const std::string& before, const Vec3& min, const Vec3& max, int first = 1,
                     const std::string& before_last = "") {
   std::string text;
@@ -68,7 +68,7 @@ std::string box_obj(const std::string& before, const Vec3& min, const Vec3& max,
   return text;
 }
 
-/// The volume that is of each material.
+/// Returns the volume of each material, in m³.
 std::map<std::string, double> volumes_m3(const Scene& scene) {
   std::map<std::string, double> volumes;
   for (const Solid& solid : scene.solids) {
@@ -111,7 +111,7 @@ TEST_F(MeshMaterials, AreTheSameForAMeshAsAPartOfACompound) {
   EXPECT_NEAR(volumes.at("glass"), 2 * 4, 1e-9);
 }
 
-TEST_F(MeshMaterials, OfASurfaceOfSeveralGoByWhatMostOfItIs) {
+TEST_F(MeshMaterials, OfASurfaceWithSeveralAreThatOfTheLargestArea) {
   write("box.obj", box_obj("usemtl rough\n", {0, 0, 0}, {1, 8, 1}, 1, "usemtl fine\n"));
   const std::string named = "materials = { rough = \"stone\", fine = \"wood\" }\n";
   const auto whole = volumes_m3(load("[[body]]\nmesh = \"box.obj\"\nnodes = 1\n" + named));
@@ -144,7 +144,7 @@ TEST_F(MeshMaterials, OfPiecesWithoutSurfaceAreThoseOfTheirShell) {
   EXPECT_NEAR(volumes.at("glass"), 729, 1e-6);
 }
 
-TEST_F(MeshMaterials, AreNotRecalledForOtherNames) {
+TEST_F(MeshMaterials, AreNotReadFromTheCacheForOtherNames) {
   write("table.obj", table_and_leg());
   const std::string body = "[[body]]\nmesh = \"table.obj\"\nmaterials = { ";
   EXPECT_EQ(volumes_m3(load(body + "leg = \"wood\" }\n")).count("wood"), 1u);
@@ -180,7 +180,7 @@ TEST_F(MeshMaterials, AreReadFromGltfNodesMeshesAndMaterials) {
   EXPECT_NEAR(with("cube = \"glass\"").at("glass"), 2, 1e-6);
 }
 
-TEST_F(MeshMaterials, FaultsAreNamedWithTheirPlaceAndWhatThereIs) {
+TEST_F(MeshMaterials, FaultsAreNamedWithTheirPlaceAndTheNamesOfTheFile) {
   write("table.obj", table_and_leg());
   write("plain.off",
         "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");

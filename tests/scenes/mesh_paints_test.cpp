@@ -1,4 +1,4 @@
-// How a mesh's file paints it is seen in frames, before a break and after.
+// Tests that the appearances of a mesh file are in frames, before and after a break.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Texture coordinates of the box below, anywhere on it.
+/// Returns the texture coordinates at a point of the surface of the box below.
 Vec2f uv_at(const Vec3& point) {
   return Vec2(point.x() + 2 * point.z(), point.y() - 3 * point.z()).cast<float>();
 }
 
-class MeshPaints : public testing::Test {
+class MeshAppearances : public testing::Test {
  protected:
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "sunder-paint-XXXXXX").string();
@@ -67,8 +67,8 @@ const std::string kShot =
     "at = [0, 1, 0]\nspeed_m_s = 60\nradius_m = 0.3\n";
 const Vec3 kMiddle(0.5, 1, 0.5);
 
-/// Painted vertices, all of which should have normals that point away from the box's middle.
-std::size_t count_painted_as_a_ball(const Frame& frame) {
+/// Returns the number of textured vertices. Expects normals that point away from the box's middle.
+std::size_t count_textured_vertices(const Frame& frame) {
   std::size_t count = 0;
   for (const Instance& instance : frame.instances) {
     const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
@@ -82,7 +82,7 @@ std::size_t count_painted_as_a_ball(const Frame& frame) {
   return count;
 }
 
-TEST_F(MeshPaints, AreTheScenesOncePerLook) {
+TEST_F(MeshAppearances, AreInTheSceneOnceEach) {
   const Scene scene = load(kBody + kBody + "position = [5, 0, 0]\n");
   ASSERT_EQ(scene.paints.size(), 2u);
   EXPECT_EQ(scene.paints[0].color, Vec3f(1, 0, 0));
@@ -96,7 +96,7 @@ TEST_F(MeshPaints, AreTheScenesOncePerLook) {
   }
 }
 
-TEST_F(MeshPaints, OfTwoBodiesShareTheirPictures) {
+TEST_F(MeshAppearances, OfTwoBodiesShareTheirTextures) {
   write("box.mtl", "newmtl red\nmap_Kd a.png\nnewmtl blue\nmap_Kd b.png\n");
   write("a.png", "one");
   write("b.png", "two");
@@ -105,7 +105,7 @@ TEST_F(MeshPaints, OfTwoBodiesShareTheirPictures) {
   EXPECT_NE(*scene.paints[0].picture, *scene.paints[1].picture);
 }
 
-TEST_F(MeshPaints, ThatDifferInReliefOrGlossAloneAreTwo) {
+TEST_F(MeshAppearances, ThatDifferInNormalMapOrRoughnessOnlyAreTwo) {
   const std::string same_color = "newmtl red\nKd 1 0 0\nnorm n.png\nnewmtl blue\nKd 1 0 0\n";
   write("n.png", "N");
   write("box.mtl", same_color);
@@ -118,7 +118,7 @@ TEST_F(MeshPaints, ThatDifferInReliefOrGlossAloneAreTwo) {
   EXPECT_EQ(load(kBody).paints.size(), 2u);
 }
 
-TEST_F(MeshPaints, AreLeftOutWhereTheMaterialsLookIsAskedFor) {
+TEST_F(MeshAppearances, AreLeftOutIfTheBodyUsesTheLookOfItsMaterial) {
   const Scene scene = load(kBody + "look = \"material\"\n");
   EXPECT_TRUE(scene.paints.empty());
   for (const ConvexPtr& convex : scene.solids.at(0).compound.convexes) {
@@ -126,7 +126,7 @@ TEST_F(MeshPaints, AreLeftOutWhereTheMaterialsLookIsAskedFor) {
   }
 }
 
-TEST_F(MeshPaints, AreNotOfASolidThatNoSceneAskedFor) {
+TEST_F(MeshAppearances, AreNotInASolidMadeWithoutAScene) {
   const MeshSolid solid = make_mesh_solid((folder_ / "box.obj").string(), {});
   for (const ConvexPtr& convex : solid.compound.convexes) {
     ASSERT_TRUE(convex->visual);
@@ -134,8 +134,8 @@ TEST_F(MeshPaints, AreNotOfASolidThatNoSceneAskedFor) {
   }
 }
 
-TEST_F(MeshPaints, OwnNormalsShadeThemCutAndUncut) {
-  // Those of a ball about the box's middle, on its flat faces.
+TEST_F(MeshAppearances, HaveTheNormalsOfTheFileCutAndUncut) {
+  // Adds the normals of a ball about the box's middle to its flat faces.
   std::ifstream given(folder_ / "box.obj");
   std::string text;
   for (std::string line; std::getline(given, line);) {
@@ -160,15 +160,15 @@ TEST_F(MeshPaints, OwnNormalsShadeThemCutAndUncut) {
   std::size_t uncut = 0, cut = 0;
   FramePtr last;
   while (FramePtr frame = simulation->next()) {
-    if (!last) uncut = count_painted_as_a_ball(*frame);
+    if (!last) uncut = count_textured_vertices(*frame);
     last = std::move(frame);
   }
-  cut = count_painted_as_a_ball(*last);
+  cut = count_textured_vertices(*last);
   EXPECT_GE(uncut, 24u);
   EXPECT_GT(cut, uncut);
 }
 
-TEST_F(MeshPaints, StayOnTheOutsideThroughABreakAndNeverGetInside) {
+TEST_F(MeshAppearances, StayOnTheOuterSurfaceThroughABreak) {
   const Scene scene = load(kBody + kShot);
   const auto simulation = make_simulation(scene);
   FramePtr last;
@@ -177,7 +177,7 @@ TEST_F(MeshPaints, StayOnTheOutsideThroughABreakAndNeverGetInside) {
   ASSERT_TRUE(last->paints);
   ASSERT_EQ(last->paints->size(), 2u);
   const Box box{Vec3(0, 0, 0), Vec3(1, 2, 1)};
-  std::size_t painted = 0, broken = 0;
+  std::size_t textured = 0, broken = 0;
   for (const Instance& instance : last->instances) {
     const Mesh& mesh = *(*last->meshes)[instance.mesh.value];
     if (scene.materials[mesh.material.value].name != "stone") continue;
@@ -187,19 +187,20 @@ TEST_F(MeshPaints, StayOnTheOutsideThroughABreakAndNeverGetInside) {
       const Vec3 beyond = at + 1e-3 * normal;
       const bool outside =
           (beyond.array() < box.min.array()).any() || (beyond.array() > box.max.array()).any();
-      ASSERT_NE(mesh.vertices[v].look, Mesh::kSurface) << "the file says how all of it looks";
+      ASSERT_NE(mesh.vertices[v].look, Mesh::kSurface)
+          << "the file has an appearance for every face";
       if (mesh.vertices[v].look == Mesh::kInterior) {
         ++broken;
         continue;
       }
-      ++painted;
+      ++textured;
       ASSERT_TRUE(outside);
       ASSERT_EQ(mesh.uvs.size(), mesh.vertices.size());
-      ASSERT_LT((mesh.uvs[v] - uv_at(at)).norm(), 1e-4f) << "wherever it was cut";
+      ASSERT_LT((mesh.uvs[v] - uv_at(at)).norm(), 1e-4f) << "also on cut faces";
     }
   }
-  EXPECT_GT(painted, 50u);
-  EXPECT_GT(broken, painted) << "most faces of pieces are inside";
+  EXPECT_GT(textured, 50u);
+  EXPECT_GT(broken, textured) << "most faces of pieces are inside";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The commands on meshes as their users see them: sunder fracture, vacd and hull.
+// Tests of the commands on meshes: `sunder fracture`, `sunder vacd` and `sunder hull`.
 #include <cmath>
 #include <fstream>
 
@@ -36,10 +36,10 @@ double number(const Figures& json, const char* key) {
   return whole ? static_cast<double>(*whole) : std::get<double>(found->second);
 }
 
-/// Everything that a break keeps. Meshes that cut through themselves have overlaps of their own.
+/// Checks all that a break preserves. Meshes that intersect themselves may have overlaps.
 void expect_sound(const Figures& json, const std::string& what, bool may_overlap = false) {
   EXPECT_GE(count(json, "/pieces"), 1) << what;
-  // A few pieces of such meshes keep the walls between their convexes.
+  // A few pieces of self-intersecting meshes keep the walls between their convexes.
   const std::int64_t walled = may_overlap ? count(json, "/walled_pieces") : 0;
   EXPECT_LE(10 * walled, count(json, "/pieces")) << what;
   EXPECT_EQ(count(json, "/watertight_pieces") + walled, count(json, "/pieces")) << what;
@@ -83,7 +83,7 @@ TEST(Fracture, GivesItsFigures) {
   EXPECT_LT(count(json, "/untouched_convexes"), 64);
 }
 
-TEST(MeshCommands, APictureShowsTheBreakWithoutBeingTold) {
+TEST(MeshCommands, APictureIsExplodedByDefault) {
   const Folder folder;
   const auto drawn = [&](const std::string& name, const std::string& more) {
     const std::string file = folder / name;
@@ -92,7 +92,7 @@ TEST(MeshCommands, APictureShowsTheBreakWithoutBeingTold) {
   };
   EXPECT_NE(drawn("a.png", ""), drawn("b.png", " --explode 0"));
   EXPECT_EQ(drawn("a.glb", ""), drawn("b.glb", " --explode 0"))
-      << "what is built on stays together";
+      << "exported meshes are not exploded by default";
 }
 
 TEST(Fracture, BreaksTheWholeSolidIntoAsManyPiecesAsThePatternHasCells) {
@@ -102,7 +102,7 @@ TEST(Fracture, BreaksTheWholeSolidIntoAsManyPiecesAsThePatternHasCells) {
   EXPECT_EQ(count(figures("fracture column:0.2,4 --pattern slabs:11"), "/pieces"), 11);
 }
 
-TEST(Fracture, AnotherSeedBreaksOtherwiseAndTheSameSeedAlike) {
+TEST(Fracture, AnotherSeedBreaksDifferentlyAndTheSameSeedAlike) {
   const std::string command = "fracture column:1,2 --pattern voronoi:15 --seed ";
   const Folder folder;
   std::vector<std::vector<Vec3>> vertices;
@@ -139,7 +139,7 @@ TEST(Fracture, RunsAPatternFileAndACase) {
   expect_sound(json, "x.case");
 }
 
-TEST(Fracture, WritesPiecesToLookAt) {
+TEST(Fracture, WritesPiecesAsGlbObjAndPng) {
   const Folder folder;
   const std::string command = "fracture box:1,1,1 --pattern grid:2 --explode 0.5 -o ";
   ASSERT_EQ(sunder(command + folder / "x.glb").exit_code, 0);
@@ -169,14 +169,14 @@ TEST(Hull, EnclosesAndComesCloserWithMoreVertices) {
   EXPECT_NEAR(before, 1, 0.02);
 }
 
-TEST(Statue, IsAMeshThatIsDecomposedBrokenAndFittedAsAFilesIs) {
+TEST(Statue, IsDecomposedBrokenAndFittedLikeAMeshFile) {
   const std::string nodes = " --nodes " SUNDER_ROOT "/scenes/meshes/statue.nodes";
   const Figures vacd = figures("vacd statue:6000" + nodes);
   EXPECT_GE(count(vacd, "/convexes"), 12);
   EXPECT_LT(number(vacd, "/hull_volume_ratio"), 1.3);
   expect_sound(figures("fracture statue:6000 --pattern voronoi:20 --radius 0.5" + nodes), "statue");
   EXPECT_LT(number(figures("hull statue:6000 --vertices 20"), "/volume_ratio"), 1.05)
-      << "as the paper has it";
+      << "the ratio of the paper";
   for (const char* wrong : {"statue", "statue:999", "statue:1e5", "statue:2000000", "statue:x"}) {
     const Outcome outcome = sunder(std::string("hull --vertices 8 ") + wrong);
     EXPECT_EQ(outcome.exit_code, 2) << wrong;
@@ -184,7 +184,7 @@ TEST(Statue, IsAMeshThatIsDecomposedBrokenAndFittedAsAFilesIs) {
   }
 }
 
-/// A tetrahedron with an open side, as text.
+/// Returns a tetrahedron with one side missing, as OBJ text.
 std::string open_tetrahedron() {
   return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
 }
@@ -301,7 +301,7 @@ constexpr const char* kWrong[] = {"fracture",
                                   "hull box:1,1,1 --vertices many",
                                   "hull nowhere.ply --vertices 9"};
 
-TEST(MeshCommands, WrongUseExitsWithTwoAndOneLine) {
+TEST(MeshCommands, WrongUseExitsWithTwoAndOneErrorLine) {
   for (const std::string wrong : kWrong) {
     const Outcome outcome = sunder(wrong);
     EXPECT_EQ(outcome.exit_code, 2) << wrong << "\n" << outcome.err;
@@ -326,13 +326,13 @@ TEST(MeshCommands, EachHasHelpForEveryFlag) {
   }
 }
 
-TEST(MeshCommands, EveryNastyMeshEndsSoonWithPiecesOrOneLine) {
+TEST(MeshCommands, EveryNastyMeshEndsSoonWithPiecesOrOneErrorLine) {
   for (const auto& mesh : test::meshes("nasty")) {
     const double start_s = test::cpu_time_s();
     const Outcome outcome =
         sunder("fracture " + mesh.string() + " --pattern voronoi:20 --quiet --json -");
     const double took_s = test::cpu_time_s() - start_s;
-    EXPECT_LT(took_s, 10) << mesh << ": 5 s on a machine that does nothing else";
+    EXPECT_LT(took_s, 10) << mesh << ": takes 5 s on an idle machine";
     if (outcome.exit_code == 0) {
       expect_sound(parse_figures(outcome.out, mesh.string()), mesh.string(), true);
     } else {

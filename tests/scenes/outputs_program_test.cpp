@@ -1,4 +1,4 @@
-// What a command is told to write never destroys what it reads, nor what is no file.
+// Tests that outputs of a command never replace its inputs, nor devices, pipes and links.
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -29,11 +29,11 @@ class Outputs : public ::testing::Test {
     std::ofstream(mesh_) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   }
-  void expect_refused(const std::string& arguments, const std::string& kept) {
-    const std::string before = bytes_of(kept);
+  void expect_refused(const std::string& arguments, const std::string& input) {
+    const std::string before = bytes_of(input);
     const Outcome outcome = sunder(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.out << outcome.err;
-    EXPECT_EQ(bytes_of(kept), before) << arguments;
+    EXPECT_EQ(bytes_of(input), before) << arguments;
     EXPECT_NE(outcome.err.find("name another"), std::string::npos) << outcome.err;
   }
 
@@ -63,14 +63,15 @@ TEST_F(Outputs, ThatAreInputsAreRefused) {
       folder_ / "in.glb");
 }
 
-TEST_F(Outputs, ThatIsTheTakeToCompareWithIsRefused) {
-  const std::string take = folder_ / "k.take";
-  ASSERT_EQ(sunder("simulate " + scene_ + " --quiet --take " + take).exit_code, 0);
-  expect_refused("simulate " + scene_ + " --quiet --verify " + take + " --take " + take, take);
-  EXPECT_EQ(sunder("simulate " + scene_ + " --quiet --verify " + take).exit_code, 0);
+TEST_F(Outputs, ThatAreTheRecordingToVerifyAreRefused) {
+  const std::string recording = folder_ / "k.take";
+  ASSERT_EQ(sunder("simulate " + scene_ + " --quiet --take " + recording).exit_code, 0);
+  expect_refused("simulate " + scene_ + " --quiet --verify " + recording + " --take " + recording,
+                 recording);
+  EXPECT_EQ(sunder("simulate " + scene_ + " --quiet --verify " + recording).exit_code, 0);
 }
 
-TEST_F(Outputs, OfOneNameAreRefused) {
+TEST_F(Outputs, WithOneNameAreRefused) {
   const std::string file = folder_ / "x";
   expect_refused("simulate " + scene_ + " --quiet --take " + file + " --json " + file, scene_);
   EXPECT_FALSE(fs::exists(file));
@@ -103,7 +104,7 @@ TEST_F(Outputs, ReachTheReaderOfAPipe) {
 
 TEST_F(Outputs, FollowLinks) {
   const std::string link = folder_ / "link.json", place = folder_ / "place.json";
-  fs::create_symlink("place.json", link);  // to what is not there yet
+  fs::create_symlink("place.json", link);  // to a file that does not exist yet
   for (int i = 0; i < 2; ++i) {
     ASSERT_EQ(sunder("simulate " + scene_ + " --quiet --json " + link).exit_code, 0);
     EXPECT_TRUE(fs::is_symlink(link));
@@ -111,7 +112,7 @@ TEST_F(Outputs, FollowLinks) {
   }
 }
 
-TEST_F(Outputs, OfOptionsThatAreNoNumbersAreRefused) {
+TEST_F(Outputs, AreNotWrittenIfAnOptionIsNotAValidNumber) {
   const std::string fracture = "fracture " + mesh_ + " --pattern voronoi:4 --quiet ";
   const std::string out = folder_ / "x.glb";
   for (const std::string& option :

@@ -1,4 +1,4 @@
-// What a file paints is in what the program makes of it.
+// Tests that the appearances of a mesh file are in the files and pictures that the program writes.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -16,9 +16,8 @@
 namespace sunder::tests {
 namespace {
 
-/// A box of one paint as OBJ, whose pictures are half as large along as it is: the coordinates of a
-/// place are (x + z, y) / 2.
-void write_painted_box(const Folder& folder) {
+/// Writes a box as OBJ with one appearance. Texture coordinates are ((x + z) / 2, y / 2).
+void write_textured_box(const Folder& folder) {
   std::string text = "mtllib box.mtl\nusemtl painted\n";
   const ConvexPolyhedron box = make_box(Vec3(0, 0, 0), Vec3(1, 2, 1));
   for (const Vec3& v : box.vertices) {
@@ -45,31 +44,31 @@ void write_painted_box(const Folder& folder) {
   render::write_png(folder / "heights.png", heights);
 }
 
-TEST(Fracture, OfAPaintedFileGivesPaintedPieces) {
+TEST(Fracture, OfATexturedFileGivesTexturedPieces) {
   const Folder folder;
-  write_painted_box(folder);
+  write_textured_box(folder);
   const std::string command = "fracture " + folder / "box.obj" + " --pattern grid:2 -o ";
   ASSERT_EQ(sunder(command + folder / "x.glb").exit_code, 0);
   const RawMesh pieces = read_mesh(folder / "x.glb");
-  std::size_t painted = 0, inside = 0;
+  std::size_t textured = 0, inside = 0;
   for (const RawMesh::Polygon& polygon : pieces.polygons) {
     const Appearance paint = pieces.groups.at(polygon.group).paint.value();
     inside += !paint.picture;
     if (!paint.picture) continue;
-    ++painted;
+    ++textured;
     EXPECT_EQ(*paint.picture, read_file(folder / "color.png"));
     EXPECT_EQ(paint.gloss->roughness, 0.5f);
     EXPECT_EQ(paint.normal_scale, 2);
     const render::Image normals = render::decode_picture(*paint.relief);
     EXPECT_EQ(normals.width, 4);
-    EXPECT_GT(normals.rgb[2], normals.rgb[0] + 20) << "other programs want normals, not heights";
+    EXPECT_GT(normals.rgb[2], normals.rgb[0] + 20) << "heights are exported as normals";
     for (std::uint32_t c = polygon.first_corner; c < polygon.first_corner + 3; ++c) {
       const Vec3& at = pieces.vertices[pieces.corners[c]];
       EXPECT_NEAR(pieces.corner_uvs[c].x(), 0.5 * (at.x() + at.z()), 1e-5);
-      EXPECT_NEAR(pieces.corner_uvs[c].y(), 1 - 0.5 * at.y(), 1e-5) << "from above";
+      EXPECT_NEAR(pieces.corner_uvs[c].y(), 1 - 0.5 * at.y(), 1e-5) << "v counts from above";
     }
   }
-  EXPECT_GE(painted, 48u) << "eight pieces with three sides each";
+  EXPECT_GE(textured, 48u) << "eight pieces with three sides each";
   EXPECT_GE(inside, 48u);
   ASSERT_EQ(sunder(command + folder / "a.png").exit_code, 0);
   std::filesystem::remove(folder / "box.mtl");
@@ -77,7 +76,7 @@ TEST(Fracture, OfAPaintedFileGivesPaintedPieces) {
   EXPECT_NE(scenes::read_text(folder / "a.png"), scenes::read_text(folder / "b.png"));
 }
 
-/// The warnings of a JSON document, one a line.
+/// Returns the warnings of a JSON document, one per line.
 std::string warnings_in(const std::string& json) {
   std::string all;
   for (const auto& [place, value] : parse_figures(json, "json")) {
@@ -86,9 +85,9 @@ std::string warnings_in(const std::string& json) {
   return all;
 }
 
-TEST(Pictures, ThatAreNotThereAreNamedInTextAndInJson) {
+TEST(Textures, ThatAreMissingAreNamedInTextAndInJson) {
   const Folder folder;
-  write_painted_box(folder);
+  write_textured_box(folder);
   std::ofstream(folder / "s.toml") << "[scene]\ndescription = \"x\"\nduration_s = 0.1\n"
                                       "[[body]]\nmesh = \"box.obj\"\n"
                                       "[[body]]\nmesh = \"box.obj\"\nposition = [9, 0, 0]\n";
@@ -109,13 +108,13 @@ TEST(Pictures, ThatAreNotThereAreNamedInTextAndInJson) {
     const std::string said = warnings_in(outcome.out);
     EXPECT_NE(said.find("'color.png', 'heights.png'"), std::string::npos) << command << said;
     EXPECT_NE(outcome.err.find("'color.png', 'heights.png'"), std::string::npos) << outcome.err;
-    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << "once, of whatever many bodies";
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << "one warning for all bodies";
   }
   EXPECT_EQ(sunder("simulate " + scene + " --quiet --set body.0.look=material " +
                    "--set body.1.look=material")
                 .err,
             "")
-      << "nobody wants them";
+      << "no body uses them";
   std::filesystem::remove(folder / "box.mtl");
   EXPECT_NE(sunder(commands[0]).err.find("'box.mtl'"), std::string::npos);
   std::ofstream(folder / "t.gltf")

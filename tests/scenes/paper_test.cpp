@@ -1,4 +1,4 @@
-// What the figures of the paper claim, of the scenes that show them (docs/paper.md).
+// Tests of the claims of the paper's figures, on the scenes that show them (docs/paper.md).
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +29,7 @@ double area_m2(const PolygonMesh& mesh) {
   return sum;
 }
 
-/// What is drawn of a compound.
+/// Returns the area of a compound that is drawn.
 double drawn_m2(const Compound& compound) {
   const auto hidden = hidden_faces(compound);
   double sum = 0;
@@ -100,7 +100,7 @@ TEST(Figure10, AStatueIsOneSoundSurfaceOfAsManyTrianglesAsAskedFor) {
     ASSERT_EQ(statue.shells.size(), 1u);
     const MassProperties solid = mass_properties(statue.shells[0]);
     EXPECT_NEAR(solid.volume_m3, 0.28, 0.012);
-    // It stands: its centre is above its base, of 0.72 m.
+    // The statue stands: its centre is above its base, 0.72 m wide.
     EXPECT_LT(std::abs(solid.centroid.x()), 0.1);
     EXPECT_LT(std::abs(solid.centroid.z()), 0.1);
   }
@@ -136,7 +136,7 @@ TEST(ImplicitSurface, OfABallIsTheBall) {
 }
 
 TEST(ImplicitSurface, IsWatertightWhereSheetsShareACell) {
-  // Bubbles about as large as cells are, which touch across edges and corners of them.
+  // Bubbles about as large as cells, which touch across edges and corners of the cells.
   const auto foam = [](const Vec3& p) {
     const Vec3 q = 9 * p + Vec3(0.3, 0.1, 0.7);
     const Vec3 wave(q.x() - std::floor(q.x()), q.y() - std::floor(q.y()),

@@ -1,4 +1,4 @@
-// Posts that would buckle are warned of, by Euler; others are not.
+// Tests of the warnings of posts that would buckle by Euler's formula.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -18,7 +18,7 @@ Scene parse(const std::string& solids) {
   return parse_scene("[scene]\ndescription = \"x\"\n" + solids, "post.toml", {});
 }
 
-/// A cube of steel that weighs so much, its foot at a height.
+/// Returns a steel cube of this mass, with its foot at this height.
 std::string cube(double mass_kg, double x_m, double height_m) {
   const std::string side = std::to_string(std::cbrt(mass_kg / 7800));
   return "[[solid]]\nstructure = \"box\"\nname = \"load\"\nmaterial = \"steel\"\nsize_m = [" +
@@ -50,7 +50,8 @@ struct Shape {
     const double area = width_m * width_m * (round ? std::numbers::pi / 4 : 1);
     return density_kg_m3 * area * height_m;
   }
-  /// Clamped and free, under a load on top; own weight q alone would buckle it at 7.84 EI/L².
+  /// Critical load on the free head of a post with a clamped foot. The self-weight alone would
+  /// buckle the post at 7.84 EI/L².
   double critical_kg() const {
     const double euler_kg = kPi2 * bending_Nm2() / (4 * height_m * height_m * kGravity);
     return euler_kg - kPi2 / 4 / 7.837 * weight_kg();
@@ -96,7 +97,7 @@ TEST(Posts, OfFiveCentimetresAndSixMetresDoNotBearSixTonnes) {
   EXPECT_TRUE(told) << post_warning(scene);
 }
 
-TEST(Posts, ThatAreStockyAreLeftToTheirStrength) {
+TEST(Posts, ThatAreStockyHaveNoWarning) {
   const Shape pillar{"concrete", 3e10, 2400, false, 1, 3},
       column{"concrete", 3e10, 2400, true, 0.5, 3};
   EXPECT_TRUE(find_posts(parse(pillar.text() + cube(1e6, 0, 3))).empty());
@@ -106,7 +107,7 @@ TEST(Posts, ThatAreStockyAreLeftToTheirStrength) {
 TEST(Posts, OfStackedPartsAreAsStiffAsTheirPartsTogether) {
   // 2 m of steel under 2 m of wood, each 0.1 m wide.
   const double steel_Nm2 = 2e11 * 1e-4 / 12, wood_Nm2 = 1.1e10 * 1e-4 / 12;
-  const auto beyond = [&](double load_N) {  // tan(k1 l1) tan(k2 l2) = k2/k1 where it buckles
+  const auto beyond = [&](double load_N) {  // buckles at tan(k1 l1) tan(k2 l2) = k2/k1
     const double k1 = std::sqrt(load_N / steel_Nm2), k2 = std::sqrt(load_N / wood_Nm2);
     return k2 * 2 > std::numbers::pi / 2 || std::tan(2 * k1) * std::tan(2 * k2) > k2 / k1;
   };
@@ -122,7 +123,7 @@ TEST(Posts, OfStackedPartsAreAsStiffAsTheirPartsTogether) {
       "position = [0, 2, 0]\n";
   const std::vector<Post> posts = find_posts(parse(post));
   ASSERT_EQ(posts.size(), 1u);
-  std::printf("steel under wood: %.0f kg, exactly %.0f without own weight\n", posts[0].critical_kg,
+  std::printf("steel under wood: %.0f kg, exactly %.0f without self-weight\n", posts[0].critical_kg,
               exact_kg);
   const double weight_kg = 0.01 * (2 * 7800 + 2 * 600);
   EXPECT_NEAR(posts[0].weight_kg, weight_kg, 1e-6 * weight_kg);
@@ -146,12 +147,12 @@ TEST(Posts, ThatShareALoadBearTheirPartsOfItAndSwayTogether) {
     EXPECT_NEAR(post.load_kg, slab_kg / 4, 1e-6 * slab_kg);
     EXPECT_EQ(post.length_factor, 1);
   }
-  // A block at a quarter of the way: three quarters of it on the nearer pair.
+  // A block at a quarter of the span: the nearer pair bears three quarters of its weight.
   found = find_posts(parse(posts + slab + cube(1000, -1, 4.2)));
   EXPECT_NEAR(found[0].load_kg, slab_kg / 4 + 375, 1);
   EXPECT_NEAR(found[2].load_kg + found[3].load_kg + found[0].load_kg + found[1].load_kg,
               slab_kg + 1000, 1);
-  // A wall at the far side holds the heads.
+  // A pier keeps the heads in place.
   const std::string wall =
       "[[solid]]\nstructure = \"box\"\nname = \"pier\"\nsize_m = [1.5, 4, 1.5]\n";
   found = find_posts(parse(posts + slab + wall));
@@ -159,7 +160,7 @@ TEST(Posts, ThatShareALoadBearTheirPartsOfItAndSwayTogether) {
   EXPECT_EQ(found[0].length_factor, 0.7);
 }
 
-TEST(Posts, ThatHangOrFlyOrAreHeldAllRoundAreNone) {
+TEST(Posts, ExcludeBodiesThatHangFallOrAreAnchoredOnAllSides) {
   const std::string rod =
       "[[solid]]\nstructure = \"box\"\nname = \"rod\"\nsize_m = [0.05, 4, 0.05]\n"
       "material = \"steel\"\n";

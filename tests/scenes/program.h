@@ -12,10 +12,10 @@ struct Outcome {
   std::string err;
 };
 
-/// `sunder ARGUMENTS`, as in a shell that has run `before`.
+/// Runs `sunder ARGUMENTS` in a shell, with the text `before` in front of the command.
 Outcome sunder(const std::string& arguments, const std::string& before = "");
 
-/// A new empty folder, removed at the end.
+/// A new empty folder, removed with its object.
 class Folder {
  public:
   Folder();

@@ -1,4 +1,4 @@
-// The program as its users see it: exit codes, messages and JSON.
+// Tests of the program: exit codes, messages and JSON.
 #include "tests/scenes/program.h"
 
 #include <sys/wait.h>
@@ -65,8 +65,8 @@ TEST(Program, SimulateSaysWhereASceneEnds) {
   EXPECT_EQ(past.err, "error: --frames 7: stack ends with frame 6\n");
 }
 
-// Files of at most 512 bytes are how a full disk looks to a program.
-TEST(Program, WhatCannotBeWrittenIsAFailureOfTheMachineNotOfTheInput) {
+// A limit of 512 bytes per file has the effect of a full disk.
+TEST(Program, AnUnwritableFileExitsWithOneAndNotTwo) {
   const Folder folder;
   const std::string run = "simulate stack --frames 2 --quiet ";
   const std::string draw = "render stack --frames 0:2 --size 64x48 --quiet ";
@@ -208,19 +208,19 @@ TEST(Program, BenchComparesOnlyRunsOfTheSameState) {
   EXPECT_NE(other.err.find("the state differs"), std::string::npos) << other.err;
 }
 
-TEST(Program, ARunThatIsKilledLeavesATakeThatPlaysUpToThere) {
+TEST(Program, AKilledRunLeavesAReadableRecording) {
   const Folder folder;
-  const std::string take = folder / "killed.take";
-  // Killed without warning once there are some frames in the file.
+  const std::string recording = folder / "killed.take";
+  // The run is killed once there are some frames in the file.
   const std::string line =
-      "\"" SUNDER_PROGRAM "\" simulate brick_wall --quiet --take " + take +
+      "\"" SUNDER_PROGRAM "\" simulate brick_wall --quiet --take " + recording +
       " 2>/dev/null & run=$!; i=0; while [ $i -lt 600 ] && "
       "[ \"$(stat -c %s " +
-      take +
+      recording +
       " 2>/dev/null || echo 0)\" -lt 150000 ]; "
       "do sleep 0.05; i=$((i+1)); done; kill -9 $run; wait $run; [ $? -eq 137 ]";
   ASSERT_EQ(std::system(line.c_str()), 0) << "it ended before it was killed";
-  RecordingReader reader(take);
+  RecordingReader reader(recording);
   EXPECT_FALSE(reader.is_complete());
   std::uint64_t frames = 0;
   while (const FramePtr frame = reader.next()) {
@@ -241,12 +241,12 @@ TEST(Program, RenderWritesThePictureItWasAskedFor) {
 
 TEST(Program, RenderDrawsTheFramesItWasAskedFor) {
   const Folder folder;
-  const std::string take = folder / "s.take";
-  ASSERT_EQ(sunder("simulate stack --frames 4 --quiet --take " + take).exit_code, 0);
+  const std::string recording = folder / "s.take";
+  ASSERT_EQ(sunder("simulate stack --frames 4 --quiet --take " + recording).exit_code, 0);
   const auto drawn = [&](const std::string& frames) {
     const std::string pictures = folder / ("frames" + frames + "/");
-    const Outcome outcome =
-        sunder("render " + take + " --frames " + frames + " --size 64x48 --quiet -o " + pictures);
+    const Outcome outcome = sunder("render " + recording + " --frames " + frames +
+                                   " --size 64x48 --quiet -o " + pictures);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     std::set<std::string> names;
     for (const auto& picture : std::filesystem::directory_iterator(pictures))
@@ -259,18 +259,19 @@ TEST(Program, RenderDrawsTheFramesItWasAskedFor) {
   EXPECT_EQ(drawn(":1"), (Names{"0", "1"}));
   EXPECT_EQ(drawn("2"), (Names{"2"}));
   for (const std::string wrong : {":", "2:1", "-1", "1:2:3", "x", "1:x", "99999999999"}) {
-    const Outcome outcome = sunder("render " + take + " -o " + folder / "x/ --frames=" + wrong);
+    const Outcome outcome =
+        sunder("render " + recording + " -o " + folder / "x/ --frames=" + wrong);
     EXPECT_EQ(outcome.exit_code, 2) << wrong;
     EXPECT_NE(outcome.err.find("expected A:B"), std::string::npos) << outcome.err;
   }
 }
 
-TEST(Program, ATakeIsLookedAtOtherwiseButNotSimulatedOtherwise) {
+TEST(Program, SettingsOfARecordingMayChangeTheViewOnly) {
   const Folder folder;
-  const std::string take = folder / "s.take";
-  ASSERT_EQ(sunder("simulate stack --frames 2 --quiet --take " + take).exit_code, 0);
+  const std::string recording = folder / "s.take";
+  ASSERT_EQ(sunder("simulate stack --frames 2 --quiet --take " + recording).exit_code, 0);
   const auto picture = [&](const std::string& options, const std::string& name) {
-    const Outcome outcome = sunder("render " + take + " --frames 1 --size 64x48 --quiet " +
+    const Outcome outcome = sunder("render " + recording + " --frames 1 --size 64x48 --quiet " +
                                    options + " -o " + folder / name);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     std::ifstream file(folder / name, std::ios::binary);
@@ -284,13 +285,13 @@ TEST(Program, ATakeIsLookedAtOtherwiseButNotSimulatedOtherwise) {
   for (const std::string wrong :
        {"--set scene.seed=2", "--set foo.bar=1", "--set view.far=1", "--preset draft",
         "--set view.eye=[0,1,0] --set view.target=[0,1,0]"}) {
-    const Outcome outcome = sunder("render " + take + " " + wrong + " -o " + folder / "x.png");
+    const Outcome outcome = sunder("render " + recording + " " + wrong + " -o " + folder / "x.png");
     EXPECT_EQ(outcome.exit_code, 2) << wrong;
     EXPECT_NE(outcome.err.find("s.take"), std::string::npos) << outcome.err;
   }
 }
 
-TEST(Program, WhatIsStoppedKeepsWhatItHasAndLeavesNothingElse) {
+TEST(Program, AStoppedCommandKeepsItsOutputsAndLeavesNoOtherFiles) {
   const Folder folder;
   const auto stopped = [&](const std::string& arguments, const std::string& until,
                            const std::string& signal) {
@@ -311,13 +312,14 @@ TEST(Program, WhatIsStoppedKeepsWhatItHasAndLeavesNothingElse) {
   EXPECT_EQ(stopped("render brick_wall --frames 350: --speed 0.5 --size 64x48 -o " + none,
                     "[ -d " + none + " ]", "TERM"),
             143)
-      << "on the way to the first picture, too";
+      << "also before the first picture";
   EXPECT_TRUE(std::filesystem::is_empty(none));
-  const std::string take = folder / "t.take";
-  EXPECT_EQ(stopped("simulate brick_wall --take " + take,
-                    "[ \"$(stat -c %s " + take + " 2>/dev/null || echo 0)\" -gt 100000 ]", "TERM"),
-            143);
-  EXPECT_TRUE(RecordingReader(take).is_complete());
+  const std::string recording = folder / "t.take";
+  EXPECT_EQ(
+      stopped("simulate brick_wall --take " + recording,
+              "[ \"$(stat -c %s " + recording + " 2>/dev/null || echo 0)\" -gt 100000 ]", "TERM"),
+      143);
+  EXPECT_TRUE(RecordingReader(recording).is_complete());
   if (std::system("ffprobe -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
   const std::string video = folder / "v.mp4";
   for (const auto& [signal, code] : {std::pair{"TERM", 143}, {"HUP", 129}}) {

@@ -1,4 +1,4 @@
-// scenes/README.md says what the reader's own tables say.
+// Tests that scenes/README.md agrees with the tables of the reader.
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -27,7 +27,7 @@ TEST(ScenesReadme, NamesEveryScene) {
   }
 }
 
-/// What a section's blocks of TOML say one after the other.
+/// Returns the blocks of TOML in a section, joined in order.
 std::string toml_of_section(const std::string& heading) {
   std::istringstream readme(read_text(SUNDER_ROOT "/scenes/README.md"));
   std::string toml, line;
@@ -44,7 +44,8 @@ std::string toml_of_section(const std::string& heading) {
   return toml;
 }
 
-/// The highest place of a piece, and how often something broke, after some frames.
+/// Returns the largest height of a mesh origin after `frames`, without balls, and all breaks so
+/// far.
 std::pair<double, std::size_t> height_and_breaks(Scene scene, int frames) {
   const auto simulation = make_simulation(std::move(scene));
   FramePtr frame;
@@ -73,8 +74,8 @@ TEST(ScenesReadme, TheStrangersBuildingStandsAndFallsWhenShot) {
   const auto [high_m, breaks] = height_and_breaks(quiet, 3600);
   EXPECT_EQ(breaks, 0u);
   EXPECT_GT(high_m, 4.1);
-  const auto [low_m, blows] = height_and_breaks(scene, 240);
-  EXPECT_GT(blows, 0u);
+  const auto [low_m, breaks_by_shot] = height_and_breaks(scene, 240);
+  EXPECT_GT(breaks_by_shot, 0u);
   EXPECT_LT(low_m, 0.7 * high_m);
 }
 

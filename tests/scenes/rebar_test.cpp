@@ -1,5 +1,5 @@
-// Bars in concrete: they bear what the theory of reinforced concrete says, and hold together what
-// is shot to pieces.
+// Tests of bars in concrete: their strength is that of the theory of reinforced concrete, and they
+// hold together a column that is shot.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,13 +17,13 @@ namespace sunder::tests::rebar_test {
 namespace {
 
 constexpr double kG = 9.81, kWide = 0.2, kLong = 1.6;  // m
-constexpr double kBar = 0.02, kDepth = 0.17;           // of bars, from the edge that is pressed
+constexpr double kBar = 0.02, kDepth = 0.17;           // of bars; depth from the compressed edge
 constexpr double kYield_Pa = 2.5e7;
-constexpr double kBears_Nm = 2 * kBar * kBar * kYield_Pa * kDepth;  // A_s f_y z
-constexpr std::uint64_t kSettled = 12;                              // frame
+constexpr double kMomentCapacity_Nm = 2 * kBar * kBar * kYield_Pa * kDepth;  // A_s f_y z
+constexpr std::uint64_t kSettled = 12;                                       // frame
 constexpr MaterialIndex kConcrete{0}, kSteel{1};
 
-/// A cantilever along x of cubes of concrete, with two bars near its upper side, or none.
+/// Returns a cantilever along x of concrete cubes, with two bars near its upper side, or none.
 Solid beam(bool with_bars) {
   std::vector<Part> parts;
   const int blocks = static_cast<int>(std::lround(kLong / kWide));
@@ -40,12 +40,12 @@ Solid beam(bool with_bars) {
   return {"beam", scenes::make_compound(std::move(parts)), {}};
 }
 
-/// As heavy as to load its bars with such a part of what they bear.
+/// Returns a scene of a beam whose self-weight loads its bars with this part of their strength.
 Scene loaded(bool with_bars, double part) {
   Scene scene;
   Material concrete, steel;
   concrete.name = "concrete", steel.name = "steel";
-  concrete.density_kg_m3 = 2 * part * kBears_Nm / (kG * kWide * kWide * kLong * kLong);
+  concrete.density_kg_m3 = 2 * part * kMomentCapacity_Nm / (kG * kWide * kWide * kLong * kLong);
   steel.density_kg_m3 = concrete.density_kg_m3;
   concrete.tensile_Pa = 3e5, concrete.shear_Pa = 2e6;
   steel.youngs_Pa = 2e11, steel.yield_Pa = kYield_Pa;
@@ -69,7 +69,7 @@ Outcome outcome(bool with_bars, double part) {
   while (const FramePtr frame = simulation->next()) {
     const auto& report = frame->report;
     if (frame->index == 0) first_kg = report.mass_kg;
-    if (frame->index == kSettled) first_J = report.potential_J;  // of all that moves by then
+    if (frame->index == kSettled) first_J = report.potential_J;  // of all bodies that move by then
     if (frame->index > kSettled) result.fallen_m = (first_J - report.potential_J) / (kG * first_kg);
     result.cracked |= !frame->breaks.empty();
     result.plastic_J = report.plastic_J;
@@ -78,20 +78,20 @@ Outcome outcome(bool with_bars, double part) {
   return result;
 }
 
-TEST(Rebar, holds_a_cracked_beam_up_to_what_its_bars_bear) {
+TEST(Rebar, holds_a_cracked_beam_up_to_the_strength_of_its_bars) {
   const Outcome holds = outcome(true, 0.85), flows = outcome(true, 1.15);
   EXPECT_TRUE(holds.cracked);
   EXPECT_LT(holds.fallen_m, 0.01);
-  EXPECT_LT(holds.plastic_J, 0.05 * kBears_Nm);
+  EXPECT_LT(holds.plastic_J, 0.05 * kMomentCapacity_Nm);
   EXPECT_TRUE(flows.cracked);
   EXPECT_GT(flows.fallen_m, 1);
-  EXPECT_GT(flows.plastic_J, 0.05 * kBears_Nm);
+  EXPECT_GT(flows.plastic_J, 0.05 * kMomentCapacity_Nm);
   for (const Outcome& each : {holds, flows}) EXPECT_LT(each.mass_error, 1e-12);
 }
 
 TEST(Rebar, is_all_that_holds_a_cracked_beam) { EXPECT_GT(outcome(false, 0.85).fallen_m, 1); }
 
-/// A column that is shot.
+/// Returns a scene of a column that is shot.
 std::string column(int bars, int seed = 1) {
   return R"(
 [scene]
@@ -126,7 +126,7 @@ radius_m = 0.2
 }
 
 struct Shot {
-  double top_m = 0;  ///< Of the highest mesh that is left, at the end.
+  double top_m = 0;  ///< Height of the highest mesh origin at the end.
   double broken_m2 = 0, mass_error = 0;
   std::vector<std::uint64_t> hashes;
 };
@@ -151,7 +151,7 @@ Shot shot(int bars, int seed = 1) {
   return result;
 }
 
-// Where the pattern happens to cut all bars apart it falls: most of five do not.
+// A column falls if the pattern cuts all of its bars; most of five columns do not.
 TEST(Rebar, holds_a_column_together_that_is_shot) {
   int hold = 0;
   for (int seed = 1; seed <= 5; ++seed) {

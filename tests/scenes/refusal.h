@@ -1,4 +1,4 @@
-// Scene files that are refused, and with which message.
+// Helpers for tests of scene files that are refused.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace sunder::scenes {
 
-/// The message a text is refused with; empty if it is accepted.
+/// Returns the message that a text is refused with; empty if it is accepted.
 inline std::string refusal(const std::string& text, const LoadOptions& options = {}) {
   try {
     parse_scene(text, "bad.toml", options);
@@ -18,7 +18,7 @@ inline std::string refusal(const std::string& text, const LoadOptions& options =
   }
 }
 
-/// Lines that follow a good line 1 and 2, and how the message begins.
+/// Faulty lines that follow two valid ones, and the beginning of the message that refuses them.
 struct Fault {
   const char* lines;
   const char* message;

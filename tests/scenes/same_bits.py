@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Runs every scene for long on several threads and lanes, and fails where their bits differ.
+"""Runs every scene on several numbers of threads and lanes, and fails if their states differ.
 
 Usage: same_bits.py [--sunder build/sunder] [--frames 600] [--preset draft] [SCENE...]
-The tests do the same for a few seconds of each scene; this takes a quarter of an hour.
+The tests compare the first seconds of each scene; this script takes a quarter of an hour.
 """
 import argparse
 import json
 import subprocess
 import sys
 
-RUNS = [(1, 16), (2, 8), (4, 4), (7, 1)]  # threads, lanes: each of either once
+RUNS = [(1, 16), (2, 8), (4, 4), (7, 1)]  # (threads, lanes)
 
 
 def sunder(program, *arguments):
@@ -28,7 +28,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--sunder", default="build/sunder")
     parser.add_argument("--frames", type=int, default=600)
-    parser.add_argument("--preset", default="draft", help="draft: as many steps as frames")
+    parser.add_argument("--preset", default="draft", help="draft has one step per frame")
     parser.add_argument("scenes", nargs="*")
     args = parser.parse_args()
     scenes = args.scenes or [s["name"] for s in sunder(args.sunder, "list")["scenes"]]

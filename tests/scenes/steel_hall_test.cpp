@@ -1,4 +1,4 @@
-// A hall of steel stands; struck, its girders bend before anything of it falls to the ground.
+// Tests of a steel hall: it stands, and when struck its girders bend before a part falls down.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,21 +20,21 @@ constexpr double kDegree = M_PI / 180;
 constexpr double kEaves = 5, kRidge = 5.2;  // m, of the girders' lower and upper side
 constexpr double kFallen = 0.1;             // m, above the ground
 constexpr double kInner = 4.8;              // m, from the middle: corners turn with the columns
-constexpr double kApart = 1.2;              // of their distance, between neighbours that have torn
+constexpr double kApart = 1.2;  // over the initial distance: neighbours farther apart have torn
 
 std::unique_ptr<FrameSource> steel_hall(std::vector<std::string> set) {
   return scenes::make_simulation(scenes::load_scene("steel_hall", {"realtime", std::move(set)}));
 }
 
-/// What a frame shows of girders and slabs.
-struct Seen {
-  double bent_rad = 0;      ///< The most that two neighbours of a girder's webs are bent.
-  double lowest_m = 1e300;  ///< Of all of both.
+/// State of the girders and slabs in a frame.
+struct HallState {
+  double bent_rad = 0;      ///< Largest angle between neighbouring webs of a girder.
+  double lowest_m = 1e300;  ///< Lowest point of girders and slabs.
 };
 
 /// A part of a girder's web.
 struct Web {
-  long frame = 0;  ///< Of the hall, by its place in mm.
+  long frame = 0;  ///< Frame of the hall, named by its z in mm.
   Vec3 at_T;
   Pose X_WT;
 };
@@ -52,8 +52,8 @@ double most_bent_rad(std::vector<Web> webs) {
   return most;
 }
 
-Seen look_at(const Frame& frame) {
-  Seen seen;
+HallState measure_hall(const Frame& frame) {
+  HallState state;
   std::vector<Web> webs;
   for (const Instance& instance : frame.instances) {
     const FrameBody& body = frame.bodies[instance.body];
@@ -68,56 +68,56 @@ Seen look_at(const Frame& frame) {
       webs.push_back({std::lround(1e3 * at_T.z()), at_T, X_WT});
     for (const Mesh::Vertex& vertex : mesh.vertices) {
       const Vec3 point_T = at_T + vertex.position.cast<double>();
-      seen.lowest_m = std::min(seen.lowest_m, (X_WT * point_T).y());
+      state.lowest_m = std::min(state.lowest_m, (X_WT * point_T).y());
     }
   }
-  seen.bent_rad = most_bent_rad(std::move(webs));
-  return seen;
+  state.bent_rad = most_bent_rad(std::move(webs));
+  return state;
 }
 
-TEST(SteelHall, StandsUnhurtWhileNothingStrikesIt) {
+TEST(SteelHall, StandsUndamagedWithoutImpacts) {
   const auto simulation = steel_hall({"script.enabled=false", "scene.duration_s=5"});
   FramePtr last;
   while (FramePtr frame = simulation->next()) last = std::move(frame);
   EXPECT_EQ(last->report.plastic_J, 0);
-  const Seen seen = look_at(*last);
-  EXPECT_LT(seen.bent_rad, 1e-9);
-  EXPECT_GT(seen.lowest_m, kEaves);
+  const HallState state = measure_hall(*last);
+  EXPECT_LT(state.bent_rad, 1e-9);
+  EXPECT_GT(state.lowest_m, kEaves);
   EXPECT_EQ(last->report.counts.awake, 0u);
 }
 
-/// How a hall takes a ball that strikes it so far along its side.
-struct Struck {
-  double bent_rad = 0;  ///< The most, before anything has fallen.
+/// Result of a ball that strikes the hall at a position along its side.
+struct StrikeResult {
+  double bent_rad = 0;  ///< Largest bend before a part has fallen.
   double plastic_J = 0;
   bool fell = false;
 };
-Struck strike(double along_m) {
+StrikeResult strike(double along_m) {
   const std::string z = std::to_string(along_m);
   const auto simulation = steel_hall({"script.blast=[]", "script.wrecking_ball.0.from.2=" + z,
                                       "script.wrecking_ball.0.hangs_from.2=" + z});
   FramePtr frame = simulation->next();
   const double mass_kg = frame->report.mass_kg;
-  Struck all;
-  EXPECT_GT(look_at(*frame).lowest_m, kEaves);
+  StrikeResult all;
+  EXPECT_GT(measure_hall(*frame).lowest_m, kEaves);
   for (; frame; frame = simulation->next()) {
     EXPECT_NEAR(frame->report.mass_kg, mass_kg, 1e-9 * mass_kg);
-    const Seen seen = look_at(*frame);
-    all.fell = seen.lowest_m < kFallen;
+    const HallState state = measure_hall(*frame);
+    all.fell = state.lowest_m < kFallen;
     all.plastic_J = frame->report.plastic_J;
     if (all.fell) break;
-    all.bent_rad = std::max(all.bent_rad, seen.bent_rad);
+    all.bent_rad = std::max(all.bent_rad, state.bent_rad);
   }
   return all;
 }
 
 TEST(SteelHall, BendsBeforeItFalls) {
-  // What falls when is chaotic: a centimetre changes it.
+  // The order in which parts fall is chaotic: a centimetre changes it.
   constexpr int kBalls = 4;
   int fell = 0;
   std::vector<double> bent_rad;
   for (int i = 0; i < kBalls; ++i) {
-    const Struck one = strike(1.95 + 0.02 * i);
+    const StrikeResult one = strike(1.95 + 0.02 * i);
     std::printf("bent by %.1f degrees, %.0f kJ, %s\n", one.bent_rad / kDegree, 1e-3 * one.plastic_J,
                 one.fell ? "fell" : "stands");
     fell += one.fell ? 1 : 0;

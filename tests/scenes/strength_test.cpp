@@ -1,5 +1,5 @@
-// Breaks where a solid is struck, and their number of pieces, against the speeds of closed forms
-// and the order of drops and shots that everybody knows.
+// Tests of breaks by impacts: the speed that breaks a solid against closed forms, and the number of
+// pieces against common experience.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,7 +14,7 @@
 namespace sunder {
 namespace {
 
-/// Number of bodies and crumbs that come of what a scene holds besides one body that stands.
+/// Returns the largest number of bodies and debris in a frame of a scene, without its static body.
 std::size_t pieces(const std::string& text) {
   const auto simulation = scenes::make_simulation(scenes::parse_scene(text, "x.toml", {}));
   std::size_t most = 0;
@@ -23,7 +23,7 @@ std::size_t pieces(const std::string& text) {
   return most - 1;
 }
 
-/// A box that flies flat against another that stands, of some material, without gravity.
+/// Returns a scene in which a box strikes an anchored box with a flat side, without gravity.
 std::string head_on(const std::string& size, const std::string& material, const std::string& other,
                     double speed_m_s) {
   return R"(
@@ -49,7 +49,7 @@ double impedance(double youngs_Pa, double density_kg_m3) {
   return std::sqrt(youngs_Pa * density_kg_m3);
 }
 
-TEST(Strength, of_lumps_is_that_of_the_wave_that_both_carry) {
+TEST(Strength, of_compact_bodies_is_that_of_the_stress_wave_in_both) {
   const double clay = impedance(1e10, 1900), concrete = impedance(3e10, 2400);
   const double brick_m_s = 2e7 * (1 / clay + 1 / concrete), cube_m_s = 3e7 * (2 / concrete);
   EXPECT_EQ(pieces(head_on("[0.24, 0.08, 0.12]", "clay", "concrete", 0.98 * brick_m_s)), 1u);
@@ -58,13 +58,13 @@ TEST(Strength, of_lumps_is_that_of_the_wave_that_both_carry) {
   EXPECT_GT(pieces(head_on("[0.3, 0.3, 0.3]", "concrete", "concrete", 1.02 * cube_m_s)), 3u);
 }
 
-TEST(Strength, of_plates_is_that_of_bending) {
+TEST(Strength, of_plates_is_that_in_bending) {
   const double glass_m_s = 4e7 / impedance(7e10, 2500);
   EXPECT_EQ(pieces(head_on("[0.1, 0.004, 0.1]", "glass", "concrete", 0.98 * glass_m_s)), 1u);
   EXPECT_GT(pieces(head_on("[0.1, 0.004, 0.1]", "glass", "concrete", 1.02 * glass_m_s)), 3u);
 }
 
-/// A pane of a square metre and 6 mm that a ball of steel strikes in the middle.
+/// Returns a scene in which a steel ball strikes the middle of a pane of 1 m², 6 mm thick.
 std::string shot_at_pane(double mass_kg, double speed_m_s) {
   const double radius_m = std::cbrt(3 * mass_kg / (4 * std::numbers::pi * 7800));
   return R"(
@@ -107,7 +107,7 @@ std::vector<std::string> warnings(const std::string& key) {
   return told;
 }
 
-TEST(Strength, as_an_impulse_is_read_with_a_warning) {
+TEST(Strength, as_an_impulse_gives_a_warning) {
   EXPECT_TRUE(warnings("").empty());
   for (const char* key : {"strength_Ns = 5\n", "smallest_break_m3 = 0.01\n"}) {
     const std::vector<std::string> told = warnings(key);

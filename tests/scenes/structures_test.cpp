@@ -1,4 +1,4 @@
-// Structures: sound, without overlap, bonded where they touch.
+// Tests of structures: closed, without overlaps, bonded where they touch.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -15,7 +15,7 @@ std::vector<Solid> solids(const std::string& lines) {
   return parse_scene("[scene]\ndescription = \"x\"\n[[solid]]\n" + lines, "x.toml", {}).solids;
 }
 
-/// Bonds join all convexes.
+/// Returns true if bonds join all convexes.
 bool is_connected(const Compound& compound) {
   std::vector<std::size_t> root(compound.convexes.size());
   for (std::size_t i = 0; i < root.size(); ++i) root[i] = i;
@@ -29,7 +29,7 @@ bool is_connected(const Compound& compound) {
   return roots.size() == 1;
 }
 
-/// Volume that two axis-aligned boxes share.
+/// Returns the volume that two axis-aligned boxes share.
 double overlap(const Box& a, const Box& b) {
   const Vec3 extent = a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min);
   return (extent.array() > 0).all() ? extent.prod() : 0;
@@ -98,7 +98,7 @@ TEST(Structures, AColumnIsAClosedPrismOfTheRightVolume) {
   EXPECT_NEAR(volume(column[0].compound), 64 * 0.25 * std::sin(2 * M_PI / 64), 1e-9);
 }
 
-TEST(Structures, GlassHangsInAFrameThatIsHeld) {
+TEST(Structures, GlassIsInAnAnchoredFrame) {
   const std::vector<Solid> pane = solids("structure = \"pane\"");
   const Compound& compound = pane[0].compound;
   ASSERT_EQ(compound.convexes.size(), 5u);
@@ -107,7 +107,7 @@ TEST(Structures, GlassHangsInAFrameThatIsHeld) {
   EXPECT_FALSE(solids("structure = \"pane\"\nframe_m = 0")[0].compound.is_anchored());
 }
 
-TEST(Structures, AHallIsOneFrameOfSteelOnFeetThatAreHeldUnderLooseSlabs) {
+TEST(Structures, AHallIsOneFrameOfSteelOnAnchoredFeetUnderLooseSlabs) {
   const std::vector<Solid> hall = solids("structure = \"hall\"");
   ASSERT_EQ(hall.size(), 1u + 3 * 4 * 5) << "slabs: in three bays four by five";
   const Compound& steel = hall[0].compound;
@@ -120,7 +120,7 @@ TEST(Structures, AHallIsOneFrameOfSteelOnFeetThatAreHeldUnderLooseSlabs) {
   EXPECT_EQ(solids("structure = \"hall\"\nroof_m = 0").size(), 1u);
 }
 
-TEST(Structures, NothingOfAPaneStaysInTheAirOnceItsFootIsLetGo) {
+TEST(Structures, APaneFallsWhenTheAnchorOfItsFootIsRemoved) {
   const Scene scene = parse_scene(
       "[scene]\ndescription = \"x\"\nduration_s = 0.5\n"
       "[[solid]]\nstructure = \"pane\"\nposition = [0, 4, 0]\n"

@@ -1,5 +1,5 @@
-// Nothing floats: whatever is at rest in a scene that ran to its end rests on something, and that
-// on something else, down to the ground or to what the world holds.
+// Tests that bodies at rest at the end of a scene are supported by the ground or by static bodies,
+// through contacts and joints.
 #include <map>
 #include <set>
 
@@ -14,16 +14,18 @@
 namespace sunder::tests {
 namespace {
 
-constexpr double kTouching_m = 0.01, kStill_m = 0.01, kFromAbove = -0.5;
+// Limits of contacts that support a body, by separation and by the y of the normal towards the
+// body, and of the motion of a body at rest in half a second.
+constexpr double kMaxSeparation_m = 0.01, kMaxRestMotion_m = 0.01, kMinSupportNormal_y = -0.5;
 
-/// Physics of which the bodies and joints are known.
-class KnownPhysics final : public bench::ForwardingPhysics {
+/// Physics that records its bodies and joints.
+class ObservedPhysics final : public bench::ForwardingPhysics {
  public:
   struct Body {
     BodyId id;
     bool is_static = false;
   };
-  struct Held {
+  struct JointBodies {
     BodyId a, b;
   };
 
@@ -58,12 +60,12 @@ class KnownPhysics final : public bench::ForwardingPhysics {
   }
 
   std::map<std::uint32_t, Body> bodies;  ///< By tag.
-  std::map<std::uint32_t, Held> joints;
+  std::map<std::uint32_t, JointBodies> joints;
 };
 
-/// The bodies that others or the world hold up, by tag: from what is held by the world upwards, by
-/// contacts that do not only press from above, and by joints.
-std::set<std::uint32_t> supported(KnownPhysics& physics) {
+/// Returns the tags of supported bodies: static ones, and those that another supported body
+/// supports by a joint, or by a contact that does not press from above.
+std::set<std::uint32_t> supported(ObservedPhysics& physics) {
   std::vector<BodyId> ids;
   std::map<std::uint32_t, std::uint32_t> tag_of_slot;
   std::set<std::uint32_t> held;
@@ -72,24 +74,27 @@ std::set<std::uint32_t> supported(KnownPhysics& physics) {
     tag_of_slot[body.id.slot] = tag;
     if (body.is_static) held.insert(tag);
   }
-  std::multimap<std::uint32_t, std::uint32_t> holds;  // who may hold up whom
+  std::multimap<std::uint32_t, std::uint32_t> supports;  // a body, and a body that it may support
   for (const Touch& touch : physics.touches(ids)) {
-    if (touch.separation_m > kTouching_m) continue;
-    if (touch.normal_W.y() > kFromAbove) holds.emplace(touch.body_tag_a, touch.body_tag_b);
-    if (-touch.normal_W.y() > kFromAbove) holds.emplace(touch.body_tag_b, touch.body_tag_a);
+    if (touch.separation_m > kMaxSeparation_m) continue;
+    if (touch.normal_W.y() > kMinSupportNormal_y)
+      supports.emplace(touch.body_tag_a, touch.body_tag_b);
+    if (-touch.normal_W.y() > kMinSupportNormal_y)
+      supports.emplace(touch.body_tag_b, touch.body_tag_a);
   }
   for (const auto& [slot, joint] : physics.joints) {
     const auto a = tag_of_slot.find(joint.a.slot), b = tag_of_slot.find(joint.b.slot);
     const bool has_a = !joint.a.none() && a != tag_of_slot.end();
     const bool has_b = !joint.b.none() && b != tag_of_slot.end();
-    if (has_a && has_b) holds.emplace(a->second, b->second), holds.emplace(b->second, a->second);
+    if (has_a && has_b)
+      supports.emplace(a->second, b->second), supports.emplace(b->second, a->second);
     if (has_a != has_b) held.insert(has_a ? a->second : b->second);
   }
   std::vector<std::uint32_t> next(held.begin(), held.end());
   while (!next.empty()) {
     const std::uint32_t below = next.back();
     next.pop_back();
-    for (auto [it, end] = holds.equal_range(below); it != end; ++it)
+    for (auto [it, end] = supports.equal_range(below); it != end; ++it)
       if (held.insert(it->second).second) next.push_back(it->second);
   }
   return held;
@@ -102,14 +107,14 @@ struct Settled {
 
 class Support : public testing::TestWithParam<Settled> {};
 
-TEST_P(Support, WhatIsAtRestRestsOnSomething) {
+TEST_P(Support, BodiesAtRestAreSupported) {
   Scene scene = scenes::load_scene(GetParam().scene, {"draft", GetParam().set});
   solver::RigidOptions options;
   options.gravity_W = scene.gravity_W;
-  auto known = std::make_unique<KnownPhysics>(solver::make_rigid_physics(options));
-  KnownPhysics& physics = *known;
+  auto observed = std::make_unique<ObservedPhysics>(solver::make_rigid_physics(options));
+  ObservedPhysics& physics = *observed;
   const double end_s = scene.duration_s;
-  Simulation simulation(std::move(scene), std::move(known), fracture::make_pattern_breaker());
+  Simulation simulation(std::move(scene), std::move(observed), fracture::make_pattern_breaker());
   FramePtr last;
   std::map<std::uint64_t, Vec3> before;  // half a second before the end
   while (const FramePtr frame = simulation.next()) {
@@ -122,7 +127,7 @@ TEST_P(Support, WhatIsAtRestRestsOnSomething) {
   std::size_t at_rest = 0;
   for (const FrameBody& body : last->bodies) {
     if (body.is_static || !before.contains(body.key)) continue;
-    if ((body.X_WB.position - before[body.key]).norm() > kStill_m) continue;
+    if ((body.X_WB.position - before[body.key]).norm() > kMaxRestMotion_m) continue;
     ++at_rest;
     EXPECT_TRUE(held.contains(static_cast<std::uint32_t>(body.key)))
         << "body " << body.key << " floats at " << body.X_WB.position.transpose()
@@ -131,8 +136,7 @@ TEST_P(Support, WhatIsAtRestRestsOnSomething) {
   EXPECT_GT(at_rest, 5u);
 }
 
-// Buildings fall in full when their support is shot, but into larger pieces than as shipped: what
-// holds up what is the same, at a tenth of the cost.
+// Buildings collapse into larger pieces than in the shipped scenes, at a tenth of the cost.
 const std::vector<std::string> kCoarseHouse = {
     "scene.duration_s=4.5",
     "material.0.pattern.cells=25",

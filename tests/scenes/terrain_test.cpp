@@ -1,4 +1,4 @@
-// Ground by heights: of the right volume, held by the world, and smooth to what rolls over it.
+// Tests of terrain from heights: its volume, its anchors, and its smoothness for a rolling ball.
 #include <cmath>
 #include <string>
 
@@ -33,7 +33,7 @@ TEST(Terrain, IsOneSolidOfPrismsUnderItsTriangles) {
   ASSERT_EQ(scene.solids.size(), 1u);
   const Compound& ground = scene.solids[0].compound;
   EXPECT_EQ(ground.convexes.size(), 4u);
-  // Over the foot: the lowest height is 0.5 m above it. Triangles meet along rows' diagonals.
+  // Heights over the foot: the lowest is 0.5 m above it. Triangles meet along rows' diagonals.
   const double sums = (1 + 2 + 4) + (1 + 2 + 3) + (4 + 5 + 2) + (4 + 5 + 2) - 12 * 0.5;
   EXPECT_NEAR(volume(ground), 2 * sums / 3, 1e-9);
   EXPECT_EQ(bounds(ground).min, Vec3(-2, 0, -1));
@@ -41,7 +41,7 @@ TEST(Terrain, IsOneSolidOfPrismsUnderItsTriangles) {
   for (const std::uint8_t anchored : ground.anchored) EXPECT_EQ(anchored, kAnchoredAllSides);
 }
 
-TEST(Terrain, RefusesWhatIsNoGrid) {
+TEST(Terrain, RefusesHeightsThatAreNoGrid) {
   for (const char* heights : {"[[1, 2]]", "[[1], [2]]", "[[1, 2], [3]]", "[1, 2]", "[]", "7",
                               "[[1, 2], [3, \"x\"]]", "[[1, 2], [3, 4000]]"}) {
     const std::string said = refusal(heights);
@@ -52,7 +52,7 @@ TEST(Terrain, RefusesWhatIsNoGrid) {
   }
 }
 
-/// How far down a slope of 3 in 10 a ball has rolled after two seconds.
+/// Returns the distance that a ball has rolled down a slope of 3 in 10 after two seconds, in m.
 double rolled_m(const std::string& ground) {
   Scene scene = parse_scene(
       kHead + ground + "anchored = \"all\"\n[[ball]]\nradius_m = 0.4\nposition = [-8, 6.82, 0.2]",
@@ -65,7 +65,7 @@ double rolled_m(const std::string& ground) {
   return 0;
 }
 
-TEST(Terrain, LetsABallRollAlmostAsOnOneFace) {
+TEST(Terrain, IsRolledOverAlmostAsOneFace) {
   std::string heights = "heights_m = [";
   for (int row = 0; row < 7; ++row) {
     heights += "[";
@@ -76,10 +76,10 @@ TEST(Terrain, LetsABallRollAlmostAsOnOneFace) {
   const double on_ramp = rolled_m(
       "[[solid]]\nstructure = \"prism\"\nmaterial = \"foundation\"\ndepth_m = 6\n"
       "outline_m = [[-10, 0], [10, 0], [10, 1], [-10, 7]]\n");
-  // A ball that does not slip: 5/7 g sin a t²/2.
+  // Distance of a ball that does not slip: 5/7 g sin a t²/2.
   const double slope = std::atan(0.3), rolls_m = 5.0 / 7 * 9.81 * std::sin(slope) * 2;
   EXPECT_NEAR(on_ramp, rolls_m, 0.1 * rolls_m);
-  EXPECT_NEAR(on_terrain, on_ramp, 0.05 * on_ramp) << "it passes some thirty edges";
+  EXPECT_NEAR(on_terrain, on_ramp, 0.05 * on_ramp) << "the ball passes some thirty edges";
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// What is wrong is refused with exit code 2, in words that say what and what would do; nothing is
-// left behind.
+// Tests that wrong input is refused with exit code 2 and a helpful message, and leaves no files.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -137,13 +136,13 @@ TEST_F(WrongInput, OfASceneNamesTheKeyThatWasMeant) {
          "b.toml:4: missing key 'structure' in [[solid]]; did you mean it by 'structur'?");
 }
 
-TEST_F(WrongInput, OfATakeSaysWhereItEnds) {
+TEST_F(WrongInput, OfARecordingNamesWhereItEnds) {
   ASSERT_EQ(run("simulate a.toml --quiet --take k.take").exit_code, 0);
   fs::resize_file(folder_ / "k.take", 100);
   expect("render k.take -o x.png", "before its first frame");
 }
 
-TEST_F(WrongInput, ThatCanBeRunIsWarnedOf) {
+TEST_F(WrongInput, ThatCanBeRunGivesAWarning) {
   std::ofstream(folder_ / "none.toml") << "[scene]\ndescription = \"x\"\nduration_s = 0.1\n";
   EXPECT_NE(run("simulate none.toml --quiet").err.find("nothing is in it"), std::string::npos);
   std::ofstream(folder_ / "under.toml") << kBlock << "position = [0, -5, 0]\n";

@@ -1,4 +1,4 @@
-// Approaches are kept while nothing changes: whoever asks often hears what one hears who asks once.
+// Tests that the cache of closing contacts has no effect on the results of queries.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -17,10 +17,10 @@ using W = RigidWorld;
 constexpr double kDt_s = 1.0 / 60;
 constexpr std::uint32_t kBoxes = 60, kShelves = 8;
 
-/// Boxes that fly about between shelves of one static body, and what breaks do to them.
+/// Boxes that fly about between the shelves of one static body, with the changes that breaks make.
 class Flight {
  public:
-  explicit Flight(bool asks_often) : asks_often_(asks_often) {
+  explicit Flight(bool queries_often) : queries_often_(queries_often) {
     BodyDesc shelves;
     shelves.is_static = true;
     shelves.tag = kBoxes;
@@ -29,18 +29,18 @@ class Flight {
     for (std::uint32_t i = 0; i < kBoxes; ++i) boxes_.push_back(world_.add(box(i)));
   }
 
-  /// What speculative_contacts after the rounds of changes of one step.
+  /// Returns the closing contacts after four rounds of changes within one step.
   std::vector<SpeculativeContact> step() {
     collide();
     for (int round = 0; round < 4; ++round) {
-      push();
+      push_two();
       replace_one();
       edit();
       collide();
     }
-    const std::vector<JointId> joints = tie();
+    const std::vector<JointId> joints = join_touching();
     collide();
-    push();
+    push_two();
     std::vector<SpeculativeContact> all = world_.physics().speculative_contacts();
     for (const JointId joint : joints) world_.physics().cut(joint);
     world_.physics().solve(kDt_s, 2);
@@ -72,12 +72,12 @@ class Flight {
 
   void collide() {
     world_.physics().collide(kDt_s);
-    ask();
+    query();
   }
-  void ask() {
-    if (asks_often_) world_.physics().speculative_contacts();
+  void query() {
+    if (queries_often_) world_.physics().speculative_contacts();
   }
-  void push() {
+  void push_two() {
     const BodyId moved = any(), pushed = any();
     BodyState state = world_.physics().state(moved);
     state.X_WB.position += Vec3(0.02, 0, 0);
@@ -85,16 +85,16 @@ class Flight {
     world_.physics().set_state(moved, state);
     const Vec3 impulse_W = 50 * motion();
     world_.physics().apply_impulse(pushed, impulse_W, somewhere());
-    ask();
+    query();
   }
   void replace_one() {
     const auto number = static_cast<std::uint32_t>(random(kBoxes));
     BodyId& gone = boxes_[number];
     const BodyDesc comes = box(number);
     gone = world_.physics().replace(std::span(&gone, 1), std::span(&comes, 1)).front();
-    ask();
+    query();
   }
-  /// Takes a shelf away, or brings it back.
+  /// Removes a shelf, or adds it again.
   void edit() {
     const auto number = static_cast<std::uint32_t>(random(kShelves));
     const ShapeDesc back = shelf(number);
@@ -102,10 +102,10 @@ class Flight {
     const std::span<const ShapeDesc> comes(&back, gone_[number] ? 1 : 0);
     gone_[number] = !gone_[number];
     world_.physics().edit({shelves_, gone, comes});
-    ask();
+    query();
   }
-  /// Joins those that touch, who then do so no longer.
-  std::vector<JointId> tie() {
+  /// Joins bodies that touch, which excludes them from collision.
+  std::vector<JointId> join_touching() {
     std::vector<JointId> joints;
     for (const TouchingBodies& touch : world_.physics().touching(boxes_)) {
       if (touch.tag_a >= kBoxes || touch.tag_b >= kBoxes) continue;
@@ -118,13 +118,13 @@ class Flight {
 
   RigidWorld world_;
   Random random_{7};
-  bool asks_often_;
+  bool queries_often_;
   BodyId shelves_;
   std::array<bool, kShelves> gone_ = {};
-  std::vector<BodyId> boxes_;  ///< By tag.
+  std::vector<BodyId> boxes_;  ///< Indexed by tag.
 };
 
-auto figures(const SpeculativeContact& a) {
+auto values(const SpeculativeContact& a) {
   return std::tuple(a.body_tag_a, a.body_tag_b, a.shape_tag_a, a.shape_tag_b, a.separation_m,
                     a.speed_m_s, a.effective_mass_kg, a.point_W.x(), a.point_W.y(), a.point_W.z(),
                     a.normal_W.x(), a.normal_W.y(), a.normal_W.z());
@@ -135,13 +135,13 @@ void expect_same(Flight& one, Flight& other) {
   for (int step = 0; step < 12; ++step) {
     const std::vector<SpeculativeContact> a = one.step(), b = other.step();
     ASSERT_EQ(a.size(), b.size()) << "step " << step;
-    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(figures(a[i]), figures(b[i]));
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(values(a[i]), values(b[i]));
     seen += a.size();
   }
   EXPECT_GT(seen, 100u);
 }
 
-TEST(Approaches, AreThoseOfOneWhoAsksOnceHoweverOftenTheyAreAskedFor) {
+TEST(ClosingContacts, DoNotDependOnHowOftenTheyAreQueried) {
   Flight often(true), once(false);
   expect_same(often, once);
 }

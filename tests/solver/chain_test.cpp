@@ -1,5 +1,4 @@
-// Chains, trees and rings of joints at every preset: they hold, keep their energy and momentum, and
-// are the same bits for any number of threads.
+// Tests of chains, trees and rings of joints at every preset, and of equal bits for any threads.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -17,7 +16,7 @@ namespace {
 using W = RigidWorld;
 using Kind = JointDesc::Kind;
 
-/// Prints what measure(preset) gives at each, and returns that at `accurate`.
+/// Prints the result of measure(preset) for each preset, and returns that of `accurate`.
 double at_each_preset(const char* what, const std::function<double(const Preset&)>& measure) {
   double accurate = 0;
   std::printf("%-44s", what);
@@ -34,7 +33,7 @@ int steps(double time_s, const Preset& preset) {
   return static_cast<int>(std::lround(time_s / preset.dt_s));
 }
 
-/// The most that a chain stretches in five seconds, of its length.
+/// Returns the maximum stretch of a chain within five seconds, as a fraction of its length.
 double worst_stretch(const Preset& preset, const ChainDesc& desc) {
   PresetWorld world(preset);
   const Chain chain = add_chain(world, desc);
@@ -66,7 +65,7 @@ TEST(Chain, HoldsABallOfTenThousandLinksAtEveryPreset) {
   }
 }
 
-TEST(Chain, HoldsInWhateverOrderItsJointsWereMade) {
+TEST(Chain, HoldsForAnyOrderOfItsJoints) {
   const Vec3 along = Vec3(0.1, -1, 0.05).normalized();
   at_each_preset("100 links in leaps of 8, ball x 1000: stretch", [&](const Preset& preset) {
     PresetWorld world(preset);
@@ -78,7 +77,7 @@ TEST(Chain, HoldsInWhateverOrderItsJointsWereMade) {
   });
 }
 
-TEST(Chain, OfRopesHoldsWhatAChainOfRodsHolds) {
+TEST(Chain, OfRopesHoldsAsOneOfRodsDoes) {
   for (const Kind kind : {Kind::kDistance, Kind::kRope}) {
     at_each_preset(
         kind == Kind::kRope ? "6 ropes, ball x 100: stretch" : "6 rods, ball x 100: stretch",
@@ -155,7 +154,7 @@ TEST(Chain, TwoBoxesInAFixedJointTumbleAsOne) {
   EXPECT_LT(std::abs(accurate), 1e-3);
 }
 
-TEST(Chain, ThatIsFreeKeepsItsMomentumWhileItIsDamped) {
+TEST(Chain, KeepsItsMomentumWhenFreeAndDamped) {
   at_each_preset("20 links whirl about a ball, 1 s: change of L", [](const Preset& preset) {
     PresetWorld world(preset, Vec3::Zero());
     const Chain chain = add_chain(world, {.ball_ratio = 1000, .hangs = false});
@@ -177,7 +176,7 @@ TEST(Chain, ThatIsFreeKeepsItsMomentumWhileItIsDamped) {
   });
 }
 
-TEST(Chain, ARingHoldsAndWhatBreaksInItLeavesTheRestWhole) {
+TEST(Chain, ARingHoldsWhenOneOfItsJointsBreaks) {
   at_each_preset("a ring of 12 hangs, and tears: gap, m", [](const Preset& preset) {
     PresetWorld world(preset);
     std::vector<BodyId> links;
@@ -190,13 +189,14 @@ TEST(Chain, ARingHoldsAndWhatBreaksInItLeavesTheRestWhole) {
       const Vec3 from = corner(i), to = corner(i + 1);
       BodyDesc link = W::box(Vec3((to - from).norm(), 0.05, 0.05), 0.5 * (from + to));
       link.X_WB.rotation = Quat::FromTwoVectors(Vec3::UnitX(), to - from);
-      links.push_back(world.add(slender(link)));
+      links.push_back(world.add(with_tiny_shape(link)));
     }
     const double weight_N = 12 * W::box(Vec3(0.5176, 0.05, 0.05), Vec3::Zero()).mass_kg * kG;
     for (std::size_t i = 0; i < 12; ++i) {
       JointDesc joint =
           joint_at(world, Kind::kBall, links[(i + 11) % 12], links[i], corner(static_cast<int>(i)));
-      if (i == 6) joint.breaking_N = 0.01 * weight_N;  // the lowest: it only pulls sideways
+      // The lowest joint, which bears horizontal forces only.
+      if (i == 6) joint.breaking_N = 0.01 * weight_N;
       joints.push_back(joint);
       world.physics().join(joint);
     }

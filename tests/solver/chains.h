@@ -1,4 +1,4 @@
-// Chains of links.
+// Test fixture: chains of boxes in joints, with a ball at the end.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace sunder::solver {
 
-/// How far the ends of a joint are apart.
+/// Returns the distance between the two anchors of a joint, in m.
 inline double gap(const RigidWorld& world, const JointDesc& joint) {
   const Vec3 a = joint.a.none() ? joint.anchor_a_R : world.state(joint.a).X_WB * joint.anchor_a_R;
   const Vec3 b = joint.b.none() ? joint.anchor_b_R : world.state(joint.b).X_WB * joint.anchor_b_R;
   return (b - a).norm();
 }
 
-/// As it was, but it hardly ever touches anything.
-inline BodyDesc slender(BodyDesc body) {
+/// Returns the body with a sphere of 1 mm as its only shape, so that it hardly ever collides.
+inline BodyDesc with_tiny_shape(BodyDesc body) {
   ShapeDesc point;
   point.kind = ShapeDesc::Kind::kSphere;
   point.radius_m = 1e-3;
@@ -23,14 +23,13 @@ inline BodyDesc slender(BodyDesc body) {
   return body;
 }
 
-/// A chain of links along a direction, with a ball of so many times a link's weight at its end;
-/// the ball last.
+/// A chain of links along a direction, with a ball at its end as the last body.
 struct Chain {
   std::vector<BodyId> bodies;
   std::vector<JointDesc> joints;
   double length_m = 0;
 
-  /// Of its length, by what its joints are apart.
+  /// Returns the sum of the gaps at the joints as a fraction of the chain's length.
   double stretch(const RigidWorld& world) const {
     double sum = 0;
     for (const JointDesc& joint : joints) sum += gap(world, joint);
@@ -40,11 +39,12 @@ struct Chain {
 
 struct ChainDesc {
   int links = 20;
-  double ball_ratio = 1;
+  double ball_ratio = 1;  ///< Mass of the ball over that of a link.
   Vec3 along = Vec3::UnitX();
   JointDesc::Kind kind = JointDesc::Kind::kBall;
-  bool hangs = true;  ///< From the origin; or else it is free, and touches nothing.
-  int stride = 1;     ///< Joints are made in steps of so many, around and around.
+  bool hangs = true;  ///< True if the chain hangs from the origin; false if it is free and collides
+                      ///< with nothing.
+  int stride = 1;     ///< The k-th joint created is number k·stride modulo (links + 1).
 };
 
 inline Chain add_chain(RigidWorld& world, const ChainDesc& desc) {
@@ -60,7 +60,7 @@ inline Chain add_chain(RigidWorld& world, const ChainDesc& desc) {
                        desc.ball_ratio * link.mass_kg / W::sphere(radius, Vec3::Zero(), 1).mass_kg);
     body.X_WB.position = (pitch * i + (ball ? radius : 0.5 * pitch)) * desc.along;
     body.X_WB.rotation = Quat::FromTwoVectors(Vec3::UnitX(), desc.along);
-    chain.bodies.push_back(world.add(desc.hangs ? body : slender(body)));
+    chain.bodies.push_back(world.add(desc.hangs ? body : with_tiny_shape(body)));
   }
   for (int k = 0; k <= desc.links; ++k) {
     const int i = k * desc.stride % (desc.links + 1);

@@ -1,4 +1,4 @@
-// Friction that the ground gives is within Coulomb's law in every step, impacts included.
+// Tests that friction of the ground obeys Coulomb's law in every step, impacts included.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFriction = 0.6;
 
-/// A dry wall of blocks on the ground, which a ball strikes.
+/// A dry wall of blocks on the ground, and a ball that strikes it.
 struct StruckWall {
   RigidWorld world;
   std::vector<BodyId> ids;
@@ -54,7 +54,7 @@ struct StruckWall {
   }
 };
 
-TEST(Coulomb, limits_what_the_ground_gives_to_a_wall_that_is_struck) {
+TEST(Coulomb, limits_the_friction_of_the_ground_on_a_wall_that_is_struck) {
   for (const Preset& preset : kPresets) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       StruckWall wall(preset, seed);

@@ -1,4 +1,5 @@
-// Editing a static compound: what stays keeps its contacts, and an edit costs what it changes.
+// Tests of edits of a static compound: remaining shapes keep their contacts, and the cost follows
+// from the number of changed shapes.
 #include <cmath>
 #include <ctime>
 #include <numeric>
@@ -14,7 +15,7 @@ namespace {
 using W = RigidWorld;
 constexpr double kDt_s = 1.0 / 60;
 
-/// side³ touching cubes of 0.2 m as one static body, tags counted from 0, x fastest.
+/// side³ touching cubes of 0.2 m as one static body; tags count from 0, x fastest.
 struct CubeCompound {
   std::vector<ConvexPolyhedron> hulls;
   BodyDesc desc;
@@ -41,26 +42,28 @@ double cpu_us() {
   return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
 }
 
-TEST(Edit, WhatStandsOnASurvivorIsNotMovedAndNotWoken) {
+TEST(Edit, BodiesOnRemainingShapesAreNotMovedAndNotWoken) {
   CubeCompound compound(5);
   RigidWorld world;
   const BodyId block = world.add(compound.desc);
-  const BodyId stays = world.add(W::box(Vec3(0.15, 0.15, 0.15), Vec3(0.1, 1.075, 0.1)));
-  const BodyId falls = world.add(W::box(Vec3(0.15, 0.15, 0.15), Vec3(0.9, 1.075, 0.9)));
+  const BodyId box_on_remaining = world.add(W::box(Vec3(0.15, 0.15, 0.15), Vec3(0.1, 1.075, 0.1)));
+  const BodyId box_on_removed = world.add(W::box(Vec3(0.15, 0.15, 0.15), Vec3(0.9, 1.075, 0.9)));
   world.run(2, kDt_s, 4);
-  ASSERT_TRUE(world.state(stays).asleep && world.state(falls).asleep);
-  const BodyState before = world.state(stays);
-  const std::vector<std::uint32_t> gone = {124, 60, 61};  // the top corner, and some within
+  ASSERT_TRUE(world.state(box_on_remaining).asleep && world.state(box_on_removed).asleep);
+  const BodyState before = world.state(box_on_remaining);
+  // A corner of the top layer, and two cubes inside.
+  const std::vector<std::uint32_t> gone = {124, 60, 61};
   world.physics().edit({block, gone, {}});
-  EXPECT_FALSE(world.state(falls).asleep);
+  EXPECT_FALSE(world.state(box_on_removed).asleep);
   world.run(0.3, kDt_s, 4);
-  EXPECT_LT(world.state(falls).X_WB.position.y(), 0.95);
-  EXPECT_TRUE(world.state(stays).asleep);
-  EXPECT_EQ(world.state(stays).X_WB.position, before.X_WB.position);
+  EXPECT_LT(world.state(box_on_removed).X_WB.position.y(), 0.95);
+  EXPECT_TRUE(world.state(box_on_remaining).asleep);
+  EXPECT_EQ(world.state(box_on_remaining).X_WB.position, before.X_WB.position);
 }
 
-TEST(Edit, SurvivingContactsKeepTheirImpulses) {
-  // A slab across a survivor and what goes: its contact with the survivor goes on as it was.
+TEST(Edit, ContactsOfRemainingShapesKeepTheirImpulses) {
+  // The slab lies on cubes that stay and on cubes that are removed; its contacts with the former
+  // keep their impulses.
   CubeCompound compound(4);
   RigidOptions options;
   options.sleeping = false;
@@ -68,7 +71,8 @@ TEST(Edit, SurvivingContactsKeepTheirImpulses) {
   const BodyId block = world.add(compound.desc);
   const BodyId slab = world.add(W::box(Vec3(0.8, 0.1, 0.8), Vec3(0.4, 0.85, 0.4)));
   world.run(1, kDt_s, 4);
-  const std::vector<std::uint32_t> gone = {48 + 5, 48 + 6, 48 + 9, 48 + 10};  // middle of the top
+  // The middle of the top layer.
+  const std::vector<std::uint32_t> gone = {48 + 5, 48 + 6, 48 + 9, 48 + 10};
   world.physics().edit({block, gone, {}});
   world.run(0.5, kDt_s, 4);
   EXPECT_LT(world.state(slab).velocity_W.norm(), 1e-3);
@@ -93,7 +97,7 @@ TEST(Edit, AddedShapesCollideAndKeepTheirTags) {
   EXPECT_LT(world.state(box).X_WB.position.y(), 0.6);
 }
 
-TEST(Edit, IsTheSameAsABodyMadeWithoutWhatWent) {
+TEST(Edit, IsTheSameAsABodyMadeWithoutTheRemovedShapes) {
   std::vector<double> heights;
   for (const bool edited : {true, false}) {
     CubeCompound compound(4);
@@ -116,7 +120,7 @@ TEST(Edit, IsTheSameAsABodyMadeWithoutWhatWent) {
   EXPECT_NEAR(heights[0], heights[1], 1e-9);
 }
 
-TEST(Edit, FiftyOfTwentyThousandConvexesLeaveInLessThanATenthOfABuild) {
+TEST(Edit, FiftyOfTwentyThousandConvexesAreRemovedInLessThanATenthOfABuild) {
   CubeCompound compound(27);
   RigidWorld world;
   for (int i = 0; i < 200; ++i)

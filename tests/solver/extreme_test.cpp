@@ -1,5 +1,5 @@
-// What no sane scene asks for: nothing is NaN, energy never comes from nowhere, and work stays
-// bounded (more of it at every preset: bench/truths/energy.cpp). Each prints what it measured.
+// Tests of extreme input: nothing is NaN, energy is not created, and work is bounded. Energy is
+// tested at every preset in bench/truths/energy.cpp. Each test prints its measurements.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,8 +18,8 @@ namespace {
 using W = RigidWorld;
 constexpr double kG = 9.81;
 
-/// The solver's fastest correction of an overlap of cubes of this side.
-double push_m_s(double side_m, double gravity_m_s2) {
+/// Returns the solver's maximum speed of overlap correction for cubes of this side.
+double correction_speed_m_s(double side_m, double gravity_m_s2) {
   return 4 * std::sqrt(gravity_m_s2 * 0.5 * side_m);
 }
 
@@ -37,7 +37,7 @@ double potential_energy(const RigidWorld& world, const std::vector<double>& mass
   return sum;
 }
 
-double fastest(const RigidWorld& world) {
+double max_speed(const RigidWorld& world) {
   double most = 0;
   for (std::size_t i = 0; i < world.size(); ++i)
     most = std::max(most, world.state(world.id(i)).velocity_W.norm());
@@ -54,7 +54,7 @@ bool finite(const RigidWorld& world) {
   return true;
 }
 
-TEST(Extremes, InputThatIsNoBodyIsAnErrorAndTheWorldStays) {
+TEST(Extremes, InvalidBodiesAreRefusedAndTheWorldIsUnchanged) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   const BodyDesc good = W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0));
@@ -98,24 +98,24 @@ TEST(Extremes, InputThatIsNoBodyIsAnErrorAndTheWorldStays) {
   EXPECT_EQ(report.contacts, 1u);
 }
 
-/// Boxes of 20 cm in one place, apart by `jitter_m`.
-struct Heap {
-  double gained_J = 0;  ///< Most that all energy was ever above its start.
+/// Figures of a burst of boxes of 20 cm in one place, displaced by `jitter_m` in random directions.
+struct Burst {
+  double gained_J = 0;  ///< Maximum of the total energy above its start.
   double allowed_J = 0;
-  double points_a_body = 0;  ///< Most in any step.
+  double points_a_body = 0;  ///< Maximum over all steps.
 };
 
-Heap burst(int count, double jitter_m, int steps) {
+Burst burst(int count, double jitter_m, int steps) {
   RigidWorld world(awake());
   Random random(1);
   std::vector<double> masses;
   world.add(W::ground());
   masses.push_back(0);
-  Heap heap;
+  Burst heap;
   for (int i = 0; i < count; ++i) {
     const BodyDesc box =
         W::box(Vec3(0.2, 0.2, 0.2), Vec3(0, 2, 0) + jitter_m * Vec3(random.direction()));
-    heap.allowed_J += 0.5 * box.mass_kg * std::pow(push_m_s(0.2, kG), 2);
+    heap.allowed_J += 0.5 * box.mass_kg * std::pow(correction_speed_m_s(0.2, kG), 2);
     masses.push_back(box.mass_kg);
     world.add(box);
   }
@@ -133,25 +133,25 @@ Heap burst(int count, double jitter_m, int steps) {
   return heap;
 }
 
-// A heap of boxes at rest has 3 contacts of 4 points a body.
+// Points per body of a heap of boxes at rest: 3 contacts of 4 points.
 constexpr double kRestingPoints = 12;
 
 TEST(Extremes, AThousandBodiesInOnePlacePartWithBoundedEnergyAndWork) {
   for (const double jitter_m : {0.0, 1e-3, 0.05}) {
-    const Heap heap = burst(1000, jitter_m, jitter_m == 0 ? 60 : 30);
+    const Burst heap = burst(1000, jitter_m, jitter_m == 0 ? 60 : 30);
     EXPECT_LE(heap.gained_J, heap.allowed_J);
     EXPECT_LE(heap.points_a_body, 10 * kRestingPoints);
   }
 }
 
 TEST(Extremes, ThreeThousandBodiesInOnePlacePartWithBoundedEnergyAndWork) {
-  const Heap heap = burst(3000, 0, 8);
+  const Burst heap = burst(3000, 0, 8);
   EXPECT_LE(heap.gained_J, heap.allowed_J);
   EXPECT_LE(heap.points_a_body, 10 * kRestingPoints);
 }
 
-// Slivers under fire came to that: steps of the midpoint rule of more than a radian diverge.
-TEST(Extremes, WhatSpinsFasterThanAnyStepFollowsStaysFinite) {
+// Midpoint steps of more than a radian diverge; small fragments under fire reach such spins.
+TEST(Extremes, BodiesThatSpinByRadiansPerStepStayFinite) {
   for (const double turn_s : {1e3, 2e4, 3e5, 1e7}) {
     RigidWorld world(awake());
     BodyDesc sliver = W::box(Vec3(8e-3, 1e-3, 4e-3), Vec3(0, 1, 0));
@@ -192,7 +192,7 @@ TEST(Extremes, AHundredThousandBodiesGiveTheSameBitsForAnyNumberOfThreads) {
   set_threads(1);
 }
 
-/// How far the top of ten boxes has sunk or wandered after two seconds, m.
+/// Returns the distance of the top box of a stack of ten from its place after two seconds, in m.
 double stack_error(double dt_s, double x_m = 0) {
   RigidWorld world(awake());
   world.add(W::ground());
@@ -208,20 +208,20 @@ TEST(Extremes, AStackStandsFromATwentiethOfASecondDownAndSinksLessWithEveryShort
   for (const double rate : {20.0, 60.0, 240.0, 1000.0, 10000.0}) {
     const double error = stack_error(1 / rate);
     std::printf("stack of 10 at 1/%.0f s: error %.3g m\n", rate, error);
-    EXPECT_LT(error, 0.5);  // stands
+    EXPECT_LT(error, 0.5);  // The stack stands.
     EXPECT_LT(error, last + 1e-6);
     last = error;
   }
 }
 
-TEST(Extremes, TenKilometresFromTheOriginAStackRestsAsWell) {
+TEST(Extremes, AStackRestsAsWellTenKilometresFromTheOrigin) {
   const double near = stack_error(1.0 / 120), far = stack_error(1.0 / 120, 1e4);
   std::printf("stack of 10: error %.4g m at the origin, %.4g m at 10 km\n", near, far);
   EXPECT_LE(far, 1.1 * near);
 }
 
-/// Ten boxes of this side dropped askew, watched as long and as often as their size asks for: how
-/// high they lie in the end, and how fast they still are, in sides and what falls a side.
+/// Drops ten tilted boxes of this side, with times and steps scaled by √side. Returns their mean
+/// height in sides, and their maximum speed in units of √(g·side).
 std::pair<double, double> heap_of_size(double side_m) {
   RigidWorld world(awake());
   world.add(W::ground());
@@ -237,7 +237,7 @@ std::pair<double, double> heap_of_size(double side_m) {
   double height = 0;
   for (std::size_t i = 1; i < world.size(); ++i)
     height += world.state(world.id(i)).X_WB.position.y() / 10;
-  return {height / side_m, fastest(world) / std::sqrt(kG * side_m)};
+  return {height / side_m, max_speed(world) / std::sqrt(kG * side_m)};
 }
 
 TEST(Extremes, HeapsOfAMillimetreAndOfAKilometreLieAlike) {

@@ -1,4 +1,4 @@
-// Surfaces of triangles: what slides and rolls feels no edge within them, nothing falls through.
+// Tests of static triangle surfaces: no ghost collisions at inner edges, and no tunnelling.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,8 +19,8 @@ constexpr int kSubsteps = 4;
 
 using Height = std::function<double(double x, double z)>;
 
-/// Squares of a side about the origin, each in two triangles, at those heights.
-GroundMesh relief(int squares, double side_m, const Height& height) {
+/// Returns squares of a side about the origin, each of two triangles, at the given heights.
+GroundMesh make_surface(int squares, double side_m, const Height& height) {
   GroundMesh mesh;
   const auto row = static_cast<std::uint32_t>(squares + 1);
   for (int k = 0; k <= squares; ++k) {
@@ -41,12 +41,12 @@ GroundMesh relief(int squares, double side_m, const Height& height) {
 
 double flat(double, double) { return 0; }
 
-/// Hills whose steepest slopes are of 50 degrees.
+/// Hills with slopes of up to 50 degrees.
 double bumpy(double x, double z) {
   return 0.6 * (sin_cos(1.3 * x).sin + sin_cos(1.7 * z + 0.4 * x).cos);
 }
 
-/// Of the surface, not of what it was made from.
+/// Returns the height of the triangle surface at a point, not of the function that it samples.
 double height_at(const GroundMesh& mesh, double x, double z) {
   for (const auto& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices_W[t[0]], &b = mesh.vertices_W[t[1]], &c = mesh.vertices_W[t[2]];
@@ -75,19 +75,19 @@ void add_surface(RigidWorld& world, const GroundMesh& mesh, double friction = 0.
   world.add(W::with_friction(body, friction, restitution));
 }
 
-/// A thousand triangles, or the plane.
+/// Returns a world whose ground is about a thousand triangles, or the plane.
 RigidWorld floor_world(bool triangles, double friction) {
   RigidWorld world;
   if (triangles) {
-    add_surface(world, relief(24, 0.5, flat), friction);
+    add_surface(world, make_surface(24, 0.5, flat), friction);
   } else {
     world.add(W::with_friction(W::ground(), friction));
   }
   return world;
 }
 
-/// A box that slides 6 m and more over 40 edges: how it moves then, and how far it was from its
-/// line.
+/// State of a box at the end of a slide of more than 6 m over 40 edges, and its largest deviations
+/// from a straight line.
 struct Slide {
   BodyState end;
   double aside_m = 0, up_m = 0;
@@ -100,9 +100,9 @@ Slide slide(bool triangles, double friction) {
   Slide slide;
   for (int i = 0; i < 180; ++i) {
     world.step(kDt_s, kSubsteps);
-    const Vec3 way = world.state(id).X_WB.position - box.X_WB.position;
-    slide.aside_m = std::max(slide.aside_m, std::abs(way.z() - 0.3 * way.x()));
-    slide.up_m = std::max(slide.up_m, std::abs(way.y()));
+    const Vec3 travel = world.state(id).X_WB.position - box.X_WB.position;
+    slide.aside_m = std::max(slide.aside_m, std::abs(travel.z() - 0.3 * travel.x()));
+    slide.up_m = std::max(slide.up_m, std::abs(travel.y()));
   }
   slide.end = world.state(id);
   return slide;
@@ -117,10 +117,10 @@ TEST(Facets, ABoxSlidesOverAThousandAsOverThePlane) {
   EXPECT_GT(over.end.X_WB.position.x(), 2) << "it crossed them";
 }
 
-TEST(Facets, FrictionOnThemIsThatOfThePlane) {
+TEST(Facets, FrictionOnThemEqualsThatOnThePlane) {
   const Slide over = slide(true, 0.1), on = slide(false, 0.1);
   EXPECT_LT(over.up_m, 1e-4);
-  // Where several share the load, friction is not quite along the way: as on any convexes.
+  // If several triangles share the load, friction is not exactly opposite to the motion.
   EXPECT_LT(over.aside_m, 0.04);
   EXPECT_NEAR(over.end.velocity_W.norm(), on.end.velocity_W.norm(), 0.02 * 0.1 * kG * 1.5);
 }
@@ -147,7 +147,7 @@ TEST(Facets, ABallRollsOverThemAsOverThePlane) {
 
 TEST(Facets, ABallRollsDownASlopeOfThem) {
   RigidWorld world;
-  add_surface(world, relief(24, 0.5, [](double x, double) { return -0.3 * x; }), 1);
+  add_surface(world, make_surface(24, 0.5, [](double x, double) { return -0.3 * x; }), 1);
   const double slope = std::atan(0.3), radius_m = 0.2;
   const Vec3 start = Vec3(-5, 1.5, 0.2) + radius_m * Vec3(std::sin(slope), std::cos(slope), 0);
   const BodyId id = world.add(W::with_friction(W::sphere(radius_m, start), 1));
@@ -158,7 +158,7 @@ TEST(Facets, ABallRollsDownASlopeOfThem) {
 
 TEST(Facets, AStackStandsOnThem) {
   RigidWorld world;
-  add_surface(world, relief(10, 0.35, flat));
+  add_surface(world, make_surface(10, 0.35, flat));
   std::vector<BodyId> ids;
   for (int i = 0; i < 5; ++i)
     ids.push_back(world.add(W::box(Vec3(1, 1, 1), Vec3(0.1, 0.5 + i, 0))));
@@ -173,15 +173,15 @@ TEST(Facets, AStackStandsOnThem) {
 
 TEST(Facets, APlankLiesAcrossARidge) {
   RigidWorld world;
-  add_surface(world, relief(8, 0.5, [](double x, double) { return -0.5 * std::abs(x); }));
+  add_surface(world, make_surface(8, 0.5, [](double x, double) { return -0.5 * std::abs(x); }));
   const BodyId id = world.add(W::box(Vec3(3, 0.1, 0.6), Vec3(0, 0.05, 0.1)));
   world.run(2, kDt_s, kSubsteps);
   EXPECT_LT((world.state(id).X_WB.position - Vec3(0, 0.05, 0.1)).norm(), 0.01);
 }
 
 TEST(Facets, ABoxStopsAtAWallOfThemAndStandsOnItsFloor) {
-  // Floor and wall are one surface with a concave edge.
-  GroundMesh mesh = relief(8, 0.5, flat);
+  // The floor and the wall are one surface with a concave edge.
+  GroundMesh mesh = make_surface(8, 0.5, flat);
   const auto first = static_cast<std::uint32_t>(mesh.vertices_W.size());
   for (const double y : {0.0, 2.0})
     for (const double z : {2.0, -2.0}) mesh.vertices_W.emplace_back(1, y, z);
@@ -197,7 +197,7 @@ TEST(Facets, ABoxStopsAtAWallOfThemAndStandsOnItsFloor) {
   EXPECT_LT(world.state(id).velocity_W.norm(), 0.01);
 }
 
-/// A box of triangles about the origin.
+/// Returns a closed box of triangles about the origin.
 GroundMesh closed_box(const Vec3& size) {
   const ConvexPolyhedron box = make_box(-0.5 * size, 0.5 * size);
   GroundMesh mesh;
@@ -210,7 +210,7 @@ GroundMesh closed_box(const Vec3& size) {
   return mesh;
 }
 
-TEST(Facets, OfAThinWallReachToItsMiddle) {
+TEST(Facets, OfAThinWallAreHalfAsThickAsTheWall) {
   for (const Facet& facet : make_facets(closed_box(Vec3(4, 3, 0.1)))) {
     EXPECT_LE(bounds(facet.prism).extent().minCoeff(), 2.0);
     if (std::abs(facet.prism.faces[0].plane.normal.z()) < 0.5) continue;
@@ -219,7 +219,7 @@ TEST(Facets, OfAThinWallReachToItsMiddle) {
   }
 }
 
-TEST(Facets, AThinWallHoldsFromBothSides) {
+TEST(Facets, AThinWallStopsBodiesFromBothSides) {
   RigidWorld world;
   add_surface(world, closed_box(Vec3(4, 3, 0.1)));
   std::vector<BodyId> ids;
@@ -237,7 +237,7 @@ TEST(Facets, AThinWallHoldsFromBothSides) {
 }
 
 TEST(Facets, FastSmallBallsDoNotPassThroughThem) {
-  const GroundMesh mesh = relief(16, 0.5, bumpy);
+  const GroundMesh mesh = make_surface(16, 0.5, bumpy);
   for (const double restitution : {0.0, 0.3}) {
     RigidWorld world;
     add_surface(world, mesh, 0.4, restitution);
@@ -254,7 +254,7 @@ TEST(Facets, FastSmallBallsDoNotPassThroughThem) {
       for (const BodyId id : ids) {
         const Vec3 at = world.state(id).X_WB.position;
         if (std::max(std::abs(at.x()), std::abs(at.z())) > 3.99) continue;
-        // What one triangle leads onto another within a step gets in, and is pushed out.
+        // A ball that a triangle deflects onto a neighbour within a step may penetrate.
         const double in_m = height_at(mesh, at.x(), at.z()) - at.y();
         ASSERT_LT(in_m, i == 119 ? 0.005 : 0.3) << id.slot << " at step " << i;
       }
@@ -262,8 +262,8 @@ TEST(Facets, FastSmallBallsDoNotPassThroughThem) {
   }
 }
 
-TEST(Facets, WhatIsDroppedAnywhereOnBumpyGroundStaysAboveIt) {
-  const GroundMesh mesh = relief(24, 0.4, bumpy);
+TEST(Facets, BodiesDroppedOnBumpyGroundStayAboveIt) {
+  const GroundMesh mesh = make_surface(24, 0.4, bumpy);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     Random random(seed);
     RigidWorld world;
@@ -297,8 +297,8 @@ TEST(Facets, WhatIsDroppedAnywhereOnBumpyGroundStaysAboveIt) {
   }
 }
 
-TEST(Facets, TheSameBitsForAnyNumberOfThreads) {
-  const GroundMesh mesh = relief(16, 0.5, bumpy);
+TEST(Facets, GiveTheSameBitsForAnyNumberOfThreads) {
+  const GroundMesh mesh = make_surface(16, 0.5, bumpy);
   const auto run = [&](int count) {
     set_threads(count);
     RigidWorld world;

@@ -1,5 +1,5 @@
-// Impacts pass in one step through all that touches (docs/decisions/036). How well they do in
-// rubble is a truth (bench/truths/through.cpp).
+// Tests that an impact propagates through all touching bodies within one step (docs/decisions/036).
+// bench/truths/through.cpp measures impacts through rubble.
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +13,10 @@ namespace {
 
 using W = RigidWorld;
 constexpr double kDt_s = 1.0 / 120, kSpeed_m_s = 100;
-constexpr int kSubsteps = 4, kSide = 10;  // more posts than there are colours
+// Number of posts per side; there are more posts than colours.
+constexpr int kSubsteps = 4, kSide = 10;
 
-/// A plate that strikes posts which touch another plate, all of them free.
+/// Returns a world in which a plate strikes posts that touch a second plate; all bodies are free.
 RigidWorld plate_strikes_posts(int lanes) {
   RigidOptions options = awake(Vec3::Zero());
   options.lanes = lanes;
@@ -28,7 +29,7 @@ RigidWorld plate_strikes_posts(int lanes) {
   return world;
 }
 
-TEST(Impact, PassesInOneStepThroughMoreContactsThanThereAreColours) {
+TEST(Impact, PropagatesInOneStepThroughMoreContactsThanColours) {
   RigidWorld world = plate_strikes_posts(0);
   const Vec3 before = world.momentum();
   const double common_m_s = before.y() / world.step(kDt_s, kSubsteps).mass_kg;
@@ -51,8 +52,8 @@ TEST(Impact, GivesTheSameBitsForAnyNumberOfThreadsAndLanes) {
   set_threads(before);
 }
 
-/// A row of boxes flies through a channel whose sides are boxes, too, and which it fills: by how
-/// much it is slower at the other end, as a share. Corners of the row pass corners of the sides.
+/// Returns the fraction of its speed that a row of boxes loses in a channel of boxes that it fills.
+/// Corners of the row pass corners of the sides.
 double slowed_in_channel(double across_m, double dt_s) {
   constexpr int kBoxes = 4;
   constexpr double kBox_m = 0.2;
@@ -83,8 +84,9 @@ TEST(Impact, DoesNotHappenWhereShapesSlidePastEachOther) {
       EXPECT_NEAR(slowed_in_channel(across_m, dt_s), 0, 1e-4) << across_m << " m, " << dt_s;
 }
 
-/// Two smooth balls whose ways cross, started so that they meet after `meet_s`: by how much their
-/// speed after it is off the closed form, and how fast they spin, in parts of their speed.
+/// Returns the error of a collision of two smooth balls on crossing paths that meet after `meet_s`:
+/// the maximum of the velocity errors against the closed form and a tenth of the surface speed of
+/// spin, over the speed.
 double crossing_error(double speed_m_s, double meet_s, double dt_s, int substeps) {
   const double radius_m = 0.05;
   const Vec3 along_a = speed_m_s * Vec3::UnitX(), along_b = speed_m_s * Vec3::UnitZ();
@@ -107,7 +109,7 @@ double crossing_error(double speed_m_s, double meet_s, double dt_s, int substeps
          speed_m_s;
 }
 
-TEST(Impact, OfBallsThatCrossIsWhereTheyMeetAtAnyStep) {
+TEST(Impact, OfBallsOnCrossingPathsMatchesTheClosedFormAtAnyStep) {
   for (const double speed_m_s : {5.0, 20.0, 60.0, 500.0}) {
     for (const int hertz : {30, 60, 90, 120, 180, 240, 480, 960}) {
       for (const int substeps : {1, 4, 8}) {

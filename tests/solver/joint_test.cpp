@@ -1,4 +1,4 @@
-// Joints against closed forms, and what they promise: loads, momentum, sleep, the same bits.
+// Tests of joints against closed forms, and of their loads, momentum, sleep and equal bits.
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using W = RigidWorld;
 using Kind = JointDesc::Kind;
-constexpr double kDt_s = 1.0 / 120;  // the preset `accurate`
+constexpr double kDt_s = 1.0 / 120;  // The preset `accurate`.
 constexpr int kSubsteps = 8;
 
 TEST(Joint, AHingeKeepsItsAxis) {
@@ -22,17 +22,17 @@ TEST(Joint, AHingeKeepsItsAxis) {
   world.physics().join(joint);
   const double mass = 200;
   world.physics().apply_impulse(door, Vec3(0, 0, 2 * mass), Vec3(0.7, 0.6, 0));
-  double lean = 0, open = 0;
+  double tilt = 0, open = 0;
   for (int i = 0; i < 600; ++i) {
     world.step(kDt_s, kSubsteps);
     const Vec3 axis = world.state(door).X_WB.rotation * joint.axis_b_R;
-    lean = std::max(lean, axis.cross(Vec3::UnitY()).norm());
+    tilt = std::max(tilt, axis.cross(Vec3::UnitY()).norm());
     EXPECT_LT(gap(world, joint), 1e-4);
     open = world.state(door).angular_velocity_W.y();
   }
-  std::printf("hinge: axis leans by %.1e rad at most, turns at %.3f rad/s\n", lean, open);
-  EXPECT_LT(lean, 1e-3);
-  // ΔL about the axis: 2·m·0.7 over m (1 + 0.01)/12 + m/4.
+  std::printf("hinge: axis leans by %.1e rad at most, turns at %.3f rad/s\n", tilt, open);
+  EXPECT_LT(tilt, 1e-3);
+  // ΔL about the axis is 2·m·0.7; the inertia is m (1 + 0.01)/12 + m/4.
   EXPECT_NEAR(std::abs(open), 1.4 / (1.01 / 12 + 0.25), 0.01 * std::abs(open));
 }
 
@@ -50,34 +50,34 @@ TEST(Joint, AHingeBetweenBodiesThatTumbleKeepsItsAxis) {
   world.physics().join(joint);
   const Vec3 L = world.angular_momentum();
   const double energy = world.kinetic_energy();
-  double lean = 0, apart = 0;
+  double tilt = 0, apart = 0;
   for (int i = 0; i < 240; ++i) {
     world.step(kDt_s, kSubsteps);
     const Vec3 axis_a = world.state(a).X_WB.rotation * joint.axis_a_R;
     const Vec3 axis_b = world.state(b).X_WB.rotation * joint.axis_b_R;
-    lean = std::max(lean, axis_a.cross(axis_b).norm());
+    tilt = std::max(tilt, axis_a.cross(axis_b).norm());
     apart = std::max(apart, gap(world, joint));
   }
-  EXPECT_LT(lean, 2e-5);
+  EXPECT_LT(tilt, 2e-5);
   EXPECT_LT(apart, 2e-5);
   EXPECT_LT((world.angular_momentum() - L).norm(), 1e-5 * L.norm());
   EXPECT_NEAR(world.kinetic_energy() / energy, 1, 1e-3);
 }
 
-TEST(Joint, AFixedJointDoesNotMindTheSignOfAQuaternion) {
+TEST(Joint, AFixedJointIgnoresTheSignOfAQuaternion) {
   RigidWorld world(awake());
   BodyDesc box = W::box(Vec3(0.2, 0.1, 0.1), Vec3(0.1, 0, 0));
   box.X_WB.rotation = Quat(-1, 0, 0, 0);
   const BodyId id = world.add(box);
   JointDesc joint = joint_at(world, Kind::kFixed, {}, id, Vec3::Zero());
-  joint.rotation_RaRb = Quat::Identity();  // the same, by the other quaternion
+  joint.rotation_RaRb = Quat::Identity();  // The same rotation as the other quaternion.
   world.physics().join(joint);
   world.run(0.2, kDt_s, kSubsteps);
   EXPECT_LT((world.state(id).X_WB.position - Vec3(0.1, 0, 0)).norm(), 1e-4);
   EXPECT_LT(world.state(id).velocity_W.norm(), 1e-3);
 }
 
-TEST(Joint, AnUprightDoorOnTwoHingesIsNotTornByOneTooMany) {
+TEST(Joint, ADoorOnTwoRedundantHingesStaysInPlace) {
   RigidWorld world(awake());
   const BodyId door = world.add(W::box(Vec3(1, 2, 0.1), Vec3(0.5, 0, 0)));
   for (const double y : {-0.8, 0.8}) {
@@ -88,7 +88,7 @@ TEST(Joint, AnUprightDoorOnTwoHingesIsNotTornByOneTooMany) {
   EXPECT_LT(world.state(door).velocity_W.norm(), 1e-3);
 }
 
-TEST(Joint, ADistanceIsHeldAndARopeOnlyPulls) {
+TEST(Joint, ADistanceJointKeepsItsLengthAndARopeOnlyPulls) {
   for (const Kind kind : {Kind::kDistance, Kind::kRope}) {
     RigidWorld world(awake());
     BodyDesc ball = W::sphere(0.1, Vec3(0, 1, 0));
@@ -113,7 +113,7 @@ TEST(Joint, ADistanceIsHeldAndARopeOnlyPulls) {
   }
 }
 
-TEST(Joint, ABallGoesRoundOnARopeAndLosesNoSpeed) {
+TEST(Joint, ABallOnARopeCirclesWithoutLosingSpeed) {
   RigidWorld world(awake(Vec3::Zero()));
   BodyDesc ball = W::sphere(0.5, Vec3(3, 0, 0));
   ball.velocity_W = Vec3(0, 2, 0);
@@ -162,7 +162,7 @@ TEST(Joint, ALoadBreaksAJointAtItsLimitAndMomentumStays) {
     EXPECT_EQ(world.physics().take_broken().size(), heavy ? 1u : 0u);
     EXPECT_EQ(world.state(id).X_WB.position.y() < -1, heavy);
   }
-  for (const bool heavy : {false, true}) {  // a beam held at its end: m g L/2
+  for (const bool heavy : {false, true}) {  // A beam held at its end bears m·g·L/2.
     RigidWorld world(awake());
     const BodyDesc beam = W::box(Vec3(1, 0.1, 0.1), Vec3(0.5, 0, 0));
     const BodyId id = world.add(beam);
@@ -172,7 +172,7 @@ TEST(Joint, ALoadBreaksAJointAtItsLimitAndMomentumStays) {
     world.run(1, kDt_s, kSubsteps);
     EXPECT_EQ(world.physics().take_broken().size(), heavy ? 1u : 0u);
   }
-  RigidWorld world(awake(Vec3::Zero()));  // two that spin about each other, faster and faster
+  RigidWorld world(awake(Vec3::Zero()));  // Two spheres orbit each other, faster and faster.
   BodyDesc a = W::sphere(0.1, Vec3(-0.5, 0, 0)), b = W::sphere(0.1, Vec3(0.5, 0, 0));
   a.velocity_W = Vec3(1, -2, 0), b.velocity_W = Vec3(1, 2, 0);
   const BodyId one = world.add(a), two = world.add(b);
@@ -188,7 +188,7 @@ TEST(Joint, ALoadBreaksAJointAtItsLimitAndMomentumStays) {
   EXPECT_LT((world.angular_momentum() - spin).norm(), 1e-5 * spin.norm());
 }
 
-TEST(Joint, AccountsForTheMomentumThatTheWorldGives) {
+TEST(Joint, ReportsTheExternalImpulseOfTheWorld) {
   RigidWorld world(awake());
   add_chain(world, {.links = 5, .ball_ratio = 20});
   for (int i = 0; i < 120; ++i) {
@@ -199,7 +199,7 @@ TEST(Joint, AccountsForTheMomentumThatTheWorldGives) {
   }
 }
 
-TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
+TEST(Joint, JoinedBodiesSleepAndWakeTogether) {
   RigidWorld world;
   world.add(W::ground());
   const BodyId a = world.add(W::box(Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0)));
@@ -228,7 +228,7 @@ TEST(Joint, WhatIsJoinedSleepsAndWakesTogether) {
   EXPECT_TRUE(world.state(b).asleep) << "they are parted";
 }
 
-/// Of all loads on a body with a tag, about a point.
+/// Returns the sums of force and torque impulses on the body with a tag, about a point.
 std::pair<Vec3, Vec3> load_on(RigidWorld& world, std::uint32_t tag, const Vec3& about_W) {
   std::pair<Vec3, Vec3> sum(Vec3::Zero(), Vec3::Zero());
   for (const JointImpulse& load : world.physics().joint_impulses()) {
@@ -239,7 +239,7 @@ std::pair<Vec3, Vec3> load_on(RigidWorld& world, std::uint32_t tag, const Vec3& 
   return sum;
 }
 
-TEST(Joint, ReportsWhatHangsOnBothItsBodies) {
+TEST(Joint, ReportsItsLoadOnBothBodies) {
   for (const Kind kind : {Kind::kRope, Kind::kDistance, Kind::kFixed}) {
     RigidWorld world;
     BodyDesc beam = W::box(Vec3(4, 0.2, 0.2), Vec3::Zero());
@@ -249,7 +249,7 @@ TEST(Joint, ReportsWhatHangsOnBothItsBodies) {
     load.tag = 2;
     beam.reports_load = load.reports_load = true;
     const BodyId a = world.add(beam), b = world.add(load);
-    const Vec3 anchor(kind == Kind::kFixed ? 1 : 1.5, 0, 0);  // a rope is plumb
+    const Vec3 anchor(kind == Kind::kFixed ? 1 : 1.5, 0, 0);  // A rope hangs vertically.
     JointDesc joint = joint_at(world, kind, a, b, anchor);
     if (kind != Kind::kFixed) {
       joint.anchor_b_R = Vec3::Zero();
@@ -270,7 +270,7 @@ TEST(Joint, ReportsWhatHangsOnBothItsBodies) {
   }
 }
 
-TEST(Joint, WhatIsJoinedThroughOthersToWhatMovesDoesNotRest) {
+TEST(Joint, BodiesJoinedIndirectlyToAMovingBodyDoNotSleep) {
   for (const double spin_rad_s : {0.0, 20.0}) {
     RigidWorld world;
     world.add(W::ground());
@@ -281,7 +281,7 @@ TEST(Joint, WhatIsJoinedThroughOthersToWhatMovesDoesNotRest) {
     BodyDesc wheel = W::sphere(0.2, Vec3(6, 0.5, 0));
     wheel.angular_velocity_W = Vec3(0, 0, spin_rad_s);
     bodies.push_back(world.add(wheel));
-    for (std::size_t i = 0; i < 4; ++i) {  // that of the wheel comes last
+    for (std::size_t i = 0; i < 4; ++i) {  // The joint of the wheel is created last.
       const Kind kind = i < 3 ? Kind::kBall : Kind::kHinge;
       const Vec3 at = i < 3 ? Vec3(1.5 * double(i) + 0.75, 0.5, 0) : wheel.X_WB.position;
       world.physics().join(joint_at(world, kind, bodies[i], bodies[i + 1], at));
@@ -295,7 +295,7 @@ TEST(Joint, WhatIsJoinedThroughOthersToWhatMovesDoesNotRest) {
   }
 }
 
-TEST(Joint, WhatIsJoinedToAnotherBodyWakes) {
+TEST(Joint, BodiesWakeWhenAJointIsMovedToAnotherBody) {
   RigidWorld world;
   world.add(W::ground());
   std::vector<BodyId> boxes;
@@ -321,7 +321,7 @@ TEST(Joint, JoinedBodiesIgnoreEachOtherUntilCut) {
   EXPECT_EQ(world.step(kDt_s, 4).contacts, 1u);
 }
 
-TEST(Joint, AnEndMovesToAnotherBodyOrIsLost) {
+TEST(Joint, AnEndMovesToAnotherBodyOrTheJointIsRemoved) {
   RigidWorld world(awake());
   const BodyDesc box = W::box(Vec3(0.5, 0.5, 0.5), Vec3(0, -0.25, 0));
   const BodyId old = world.add(box);

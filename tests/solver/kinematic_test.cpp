@@ -1,4 +1,4 @@
-// What goes its way whatever it meets: closed forms of what it carries, pushes and throws.
+// Tests of kinematic bodies: closed forms of the bodies that they carry, push and throw.
 #include <gtest/gtest.h>
 
 #include "bench/truths/rigid_world.h"
@@ -18,7 +18,7 @@ BodyDesc kinematic(BodyDesc desc, const Vec3& velocity_W = Vec3::Zero(),
   return W::moving(desc, velocity_W, angular_velocity_W);
 }
 
-/// Both solvers, in which the same things have to come true.
+/// Runs each test with the rigid and the planar solver.
 class Kinematic : public testing::TestWithParam<bool> {
  protected:
   static RigidWorld make() {
@@ -28,7 +28,7 @@ class Kinematic : public testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(Both, Kinematic, testing::Bool(),
                          [](const auto& planar) { return planar.param ? "Planar" : "Rigid"; });
 
-TEST_P(Kinematic, ItMovesAsToldHoweverHeavyWhatItMeetsIs) {
+TEST_P(Kinematic, MovesAsPrescribedAgainstAnyMass) {
   RigidWorld world = make();
   const BodyId wall =
       world.add(kinematic(W::box(Vec3(1, 1, 1), Vec3::Zero()), Vec3(2, 1, 0), Vec3(0, 0, 0.5)));
@@ -42,7 +42,7 @@ TEST_P(Kinematic, ItMovesAsToldHoweverHeavyWhatItMeetsIs) {
   EXPECT_GT(world.state(block).velocity_W.x(), 1) << "512 t gave way";
 }
 
-TEST_P(Kinematic, ABoxOnALiftPressesByWeightAndAcceleration) {
+TEST_P(Kinematic, ABoxOnALiftLoadsItByWeightAndAcceleration) {
   RigidWorld world = make();
   const BodyId lift = world.add(kinematic(W::box(Vec3(4, 1, 1), Vec3(0, -0.5, 0))));
   BodyDesc box = W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0));
@@ -67,7 +67,7 @@ TEST_P(Kinematic, ABoxOnALiftPressesByWeightAndAcceleration) {
   EXPECT_NEAR(world.state(id).velocity_W.y(), 4, 0.02);
 }
 
-TEST_P(Kinematic, ABoxOnAConveyorSlipsUntilItIsAsFastAndNoLonger) {
+TEST_P(Kinematic, ABoxOnAConveyorSlipsUntilItReachesTheConveyorsSpeed) {
   RigidWorld world = make();
   const double friction = 0.5, v_m_s = 3;
   world.add(kinematic(W::with_friction(W::box(Vec3(40, 1, 1), Vec3(0, -0.5, 0)), friction),
@@ -83,7 +83,7 @@ TEST_P(Kinematic, ABoxOnAConveyorSlipsUntilItIsAsFastAndNoLonger) {
   EXPECT_NEAR(world.state(box).X_WB.position.x(), way_m, 0.05);
 }
 
-TEST_P(Kinematic, ABallLeavesAWallThatMeetsItFasterByTheWallsSpeed) {
+TEST_P(Kinematic, ABallReboundsFromAMovingWallFasterByTheWallsSpeed) {
   for (const double restitution : {0.0, 0.5, 1.0}) {
     RigidWorld world = GetParam() ? RigidWorld(make_planar_physics({.gravity_W = Vec3::Zero()}))
                                   : RigidWorld(RigidOptions{.gravity_W = Vec3::Zero()});
@@ -97,7 +97,7 @@ TEST_P(Kinematic, ABallLeavesAWallThatMeetsItFasterByTheWallsSpeed) {
   }
 }
 
-TEST_P(Kinematic, WhatSleptOnItWakesWhenItGoesAndRidesAlong) {
+TEST_P(Kinematic, SleepingBodiesWakeWhenTheirSupportMovesAndRideAlong) {
   RigidWorld world = make();
   const BodyId lift = world.add(kinematic(W::box(Vec3(4, 1, 1), Vec3(0, -0.5, 0))));
   std::vector<BodyId> boxes;
@@ -106,7 +106,7 @@ TEST_P(Kinematic, WhatSleptOnItWakesWhenItGoesAndRidesAlong) {
   world.run(4, kDt_s, kSubsteps);
   for (const BodyId box : boxes) EXPECT_TRUE(world.state(box).asleep);
   BodyState state = world.state(lift);
-  for (const double v_m_s : {-0.02, 0.02}) {  // slower than what rests
+  for (const double v_m_s : {-0.02, 0.02}) {  // Slower than the speed of a body at rest.
     state = world.state(lift);
     state.velocity_W.y() = v_m_s;
     world.physics().set_state(lift, state);
@@ -120,7 +120,7 @@ TEST_P(Kinematic, WhatSleptOnItWakesWhenItGoesAndRidesAlong) {
   for (const BodyId box : boxes) EXPECT_TRUE(world.state(box).asleep) << "it stands again";
 }
 
-TEST(Turntable, CarriesAsFarAsFrictionHolds) {
+TEST(Turntable, CarriesBodiesUpToTheRadiusThatFrictionAllows) {
   RigidWorld world;
   const double spin_rad_s = 1.5, friction = 0.5;
   const double most_m = friction * kG / (spin_rad_s * spin_rad_s);
@@ -142,14 +142,14 @@ TEST(Turntable, CarriesAsFarAsFrictionHolds) {
   EXPECT_GT(world.state(outer).X_WB.position.norm(), 1.5 * most_m);
 }
 
-/// How far the ends of a joint are apart.
+/// Returns the distance between the two anchors of a joint, in m.
 double gap_m(const RigidWorld& world, const JointDesc& joint) {
   return (world.state(joint.b).X_WB * joint.anchor_b_R -
           world.state(joint.a).X_WB * joint.anchor_a_R)
       .norm();
 }
 
-TEST(Crane, WhatHangsStraightFromOneThatGoesEvenlyHangsStraight) {
+TEST(Crane, AChainBelowACraneInUniformMotionStaysVertical) {
   RigidWorld world;
   const Vec3 v_m_s(3, 0.5, -1);
   const BodyId crane = world.add(kinematic(W::box(Vec3(1, 0.2, 1), Vec3(0, 10, 0)), v_m_s));
@@ -177,7 +177,7 @@ TEST(Crane, WhatHangsStraightFromOneThatGoesEvenlyHangsStraight) {
   for (const JointDesc& joint : joints) EXPECT_LT(gap_m(world, joint), 0.001);
 }
 
-TEST(Crane, LiftsByWeightAndAcceleration) {
+TEST(Crane, LiftsALoadByWeightAndAcceleration) {
   RigidWorld world;
   const BodyId crane = world.add(kinematic(W::box(Vec3(1, 0.2, 1), Vec3(0, 10, 0))));
   BodyDesc load = W::box(Vec3(1, 1, 1), Vec3(0, 7, 0));
@@ -204,7 +204,7 @@ TEST(Crane, LiftsByWeightAndAcceleration) {
   EXPECT_NEAR(world.state(id).velocity_W.y(), 4, 0.03);
 }
 
-TEST(Crane, TurnsWhatIsFixedToIt) {
+TEST(Crane, TurnsTheBodyFixedToIt) {
   RigidWorld world(RigidOptions{.gravity_W = Vec3::Zero()});
   const Vec3 spin(0, 1.5, 0);
   const BodyId crane =
@@ -220,7 +220,7 @@ TEST(Crane, TurnsWhatIsFixedToIt) {
   EXPECT_LT((state.angular_velocity_W - spin).norm(), 0.005);
 }
 
-/// A tub of balls and boxes, swept by an arm that turns, shaken on a plate.
+/// Returns the hash of a world of balls and boxes on a shaken plate, swept by an arm that turns.
 std::uint64_t shaken(int threads, int lanes) {
   set_threads(threads);
   RigidOptions options;

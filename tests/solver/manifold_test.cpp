@@ -1,4 +1,4 @@
-// Which points a manifold keeps when it is made anew.
+// Tests of the contact points that a manifold keeps when it is built again.
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using W = RigidWorld;
 
 constexpr float kSize_m = 0.5f, kReach_m = 0.03f;
 
-/// A block of a metre on another; where they meet, the narrow phase names one edge at a time.
+/// A block of a metre on another; the narrow phase reports one edge of their contact at a time.
 class TwoBlocks : public testing::Test {
  protected:
   TwoBlocks() {
@@ -25,8 +25,8 @@ class TwoBlocks : public testing::Test {
     m_.points[0].impulse_Ns = 7;
   }
 
-  /// Looks at the pair where it is; the edge at `x` touches with `separation_m` along the normal,
-  /// which leans by `slope`.
+  /// Builds the manifold of the pair in its pose, with one contact point on the edge at `x`, at
+  /// `separation_m` along the normal.
   void touch(float x, std::uint32_t feature, float separation_m) {
     const Vec3f normal = Vec3f::UnitY(), on_a(x, 0.5f, 0);
     const std::vector<PatchPoint> points = {
@@ -44,7 +44,7 @@ class TwoBlocks : public testing::Test {
   Manifold m_;
 };
 
-TEST_F(TwoBlocks, ThatRockFromOneEdgeToAnotherStandOnBoth) {
+TEST_F(TwoBlocks, ThatRockFromOneEdgeToAnotherKeepThePointsOfBoth) {
   touch(0.4f, 2, 0.001f);
   ASSERT_EQ(m_.count, 2);
   EXPECT_EQ(m_.points[0].feature, 2u);
@@ -54,20 +54,20 @@ TEST_F(TwoBlocks, ThatRockFromOneEdgeToAnotherStandOnBoth) {
   EXPECT_NEAR(m_.friction_anchor_A.x(), 0, 1e-6);
 }
 
-TEST_F(TwoBlocks, ThatPartFromAnEdgeStandOnTheOtherAlone) {
+TEST_F(TwoBlocks, ThatSeparateAtAnEdgeKeepThePointOfTheOtherOnly) {
   move_b(Vec3(0, 2 * kReach_m, 0));
   touch(0.4f, 2, 0.001f);
   ASSERT_EQ(m_.count, 1);
   EXPECT_EQ(m_.points[0].feature, 2u);
 }
 
-TEST_F(TwoBlocks, ThatSlideTakeNoPointAlong) {
-  move_b(Vec3(0, 0, 0.05));  // a tenth of their size
+TEST_F(TwoBlocks, ThatSlideKeepNoOldPoint) {
+  move_b(Vec3(0, 0, 0.05));  // A tenth of the blocks' size.
   touch(0.4f, 2, 0.001f);
   EXPECT_EQ(m_.count, 1);
 }
 
-TEST_F(TwoBlocks, ThatTouchWhereTheyDidHaveOnePointThereWithItsLoad) {
+TEST_F(TwoBlocks, ThatTouchAtTheSamePlaceKeepOnePointWithItsImpulse) {
   touch(-0.39f, 2, 0.001f);
   ASSERT_EQ(m_.count, 1);
   EXPECT_EQ(m_.points[0].impulse_Ns, 7);

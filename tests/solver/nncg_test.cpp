@@ -1,4 +1,4 @@
-// Conjugate gradients reach the solution of many plain sweeps in few.
+// Tests that conjugate gradients (NNCG) need far fewer sweeps than plain Gauss-Seidel.
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ RigidOptions with_sweeps(int sweeps, bool accelerated) {
   return options;
 }
 
-/// A stack of 50 that begins cold, without impulses: how much of its weight does the floor not bear
-/// after one step of so many sweeps?
+/// Returns the fraction of the weight of a stack of 50 boxes that the ground does not bear after
+/// one step of `sweeps` sweeps without warm start.
 double residual(int sweeps, bool accelerated) {
   RigidOptions options = with_sweeps(sweeps, accelerated);
   options.static_warm_start = 0;
@@ -33,7 +33,7 @@ double residual(int sweeps, bool accelerated) {
   return world.momentum().norm() / weight_Ns;
 }
 
-/// The least number of sweeps, doubling, that leaves less than `limit`.
+/// Returns the first number of sweeps, growing by an eighth, whose residual is at most `limit`.
 int sweeps_to(double limit, bool accelerated) {
   int sweeps = 8;
   while (sweeps < 16384 && residual(sweeps, accelerated) > limit) sweeps += sweeps / 8;
@@ -51,8 +51,8 @@ TEST(Nncg, ReachesTheSolutionOfAStackInATenthOfTheSweeps) {
   EXPECT_GE(plain, 10 * accelerated);
 }
 
-TEST(Nncg, StandsAndSlidesAsPlainSweepsDo) {
-  double way[2];
+TEST(Nncg, SlidesAsFarAsPlainSweeps) {
+  double travel[2];
   for (const bool accelerated : {false, true}) {
     RigidWorld world(with_sweeps(8, accelerated));
     world.add(W::with_friction(W::ground(), 0.4));
@@ -60,9 +60,9 @@ TEST(Nncg, StandsAndSlidesAsPlainSweepsDo) {
     desc.velocity_W = Vec3(3, 0, 0);
     const BodyId body = world.add(desc);
     world.run(2, 1.0 / 120, 4);
-    way[accelerated] = world.state(body).X_WB.position.x();
+    travel[accelerated] = world.state(body).X_WB.position.x();
   }
-  EXPECT_NEAR(way[1] / way[0], 1, 1e-3);
+  EXPECT_NEAR(travel[1] / travel[0], 1, 1e-3);
 }
 
 TEST(Nncg, GivesTheSameBitsForAnyNumberOfThreadsAndLanes) {

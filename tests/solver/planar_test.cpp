@@ -1,4 +1,4 @@
-// The plane behind the seam: everything of it works there, and what cannot be planar is refused.
+// Tests of the planar solver behind Physics, and of its refusal of bodies that are not planar.
 #include <gtest/gtest.h>
 
 #include "bench/truths/rigid_world.h"
@@ -31,7 +31,7 @@ BodyDesc column(int sides, const Vec3& center_W) {
   return W::hull(make_hull(corners), center_W);
 }
 
-/// The message that adding it is refused with.
+/// Returns the message of the error that refuses a body.
 std::string refusal(const BodyDesc& desc) {
   RigidWorld world = plane();
   try {
@@ -42,7 +42,7 @@ std::string refusal(const BodyDesc& desc) {
   return "";
 }
 
-TEST(Prism, OutlinesOfPrismsAreConvexAndGoRoundOnce) {
+TEST(Prism, HasAConvexCounterClockwiseOutline) {
   const std::optional<ZPrism> box = prism_along_z(make_box(Vec3(0, 0, -1), Vec3(2, 1, 3)), {});
   ASSERT_TRUE(box);
   ASSERT_EQ(box->outline.size(), 4u);
@@ -56,7 +56,7 @@ TEST(Prism, OutlinesOfPrismsAreConvexAndGoRoundOnce) {
   EXPECT_DOUBLE_EQ(area, 2);
 }
 
-TEST(Prism, WhatNarrowsAlongZIsNone) {
+TEST(Prism, IsRefusedForShapesThatNarrowAlongZ) {
   const std::vector<Vec3> corners = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
   EXPECT_FALSE(prism_along_z(make_hull(corners), {}));
   const Pose leaning{Vec3::Zero(), Quat(Eigen::AngleAxisd(0.1, Vec3::UnitX()))};
@@ -80,7 +80,7 @@ TEST(Planar, ABodyFallsAsFarAsInThreeDimensionsAndKeepsItsZ) {
   }
 }
 
-TEST(Planar, StacksOfBoxesAndManySidedPrismsAndSpheresRestFaceToFace) {
+TEST(Planar, BoxesAndSpheresRest) {
   RigidWorld world = plane();
   world.add(W::ground());
   const BodyId box = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
@@ -95,7 +95,7 @@ TEST(Planar, StacksOfBoxesAndManySidedPrismsAndSpheresRestFaceToFace) {
   EXPECT_EQ(world.state(wheel).X_WB.position, Vec3(5, 0.5, 0));
 }
 
-TEST(Planar, APrismOfTwentySidesRollsDownASlopeWholeAsItIs) {
+TEST(Planar, APrismOfTwentySidesRollsDownASlope) {
   PlanarOptions options;
   options.gravity_W = Vec3(2.5, -9.4, 0);
   RigidWorld world(make_planar_physics(options));
@@ -106,7 +106,7 @@ TEST(Planar, APrismOfTwentySidesRollsDownASlopeWholeAsItIs) {
   EXPECT_NEAR(world.state(id).X_WB.position.y(), 0.497, 0.01);
 }
 
-TEST(Planar, WhatIsNotPlanarIsRefusedByNameAndChangesNothing) {
+TEST(Planar, BodiesThatAreNotPlanarAreRefusedByNameAndChangeNothing) {
   BodyDesc leaning = W::box(Vec3(1, 1, 1), Vec3(0, 0, 0));
   leaning.tag = 17;
   leaning.X_WB.rotation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitX()));
@@ -123,7 +123,7 @@ TEST(Planar, WhatIsNotPlanarIsRefusedByNameAndChangesNothing) {
   EXPECT_EQ(world.state(kept).X_WB.position, Vec3(Vec3::Zero()));
 }
 
-TEST(Planar, ApproachesTellSpeedAndMassOfWhatWillMeetWithinTheStep) {
+TEST(Planar, ClosingContactsHaveSpeedAndMassOfBodiesThatMeetWithinTheStep) {
   RigidWorld world = plane();
   BodyDesc ball = W::sphere(0.5, Vec3(-1.6, 0, 0));
   ball.velocity_W = Vec3(20, 0, 0);
@@ -132,7 +132,7 @@ TEST(Planar, ApproachesTellSpeedAndMassOfWhatWillMeetWithinTheStep) {
   wall.tag = 2;
   world.add(ball);
   world.add(wall);
-  world.physics().collide(1.0 / 240);  // 8 cm: not yet
+  world.physics().collide(1.0 / 240);  // The ball moves 8 cm, too little to reach the wall.
   EXPECT_TRUE(world.physics().speculative_contacts().empty());
   world.physics().collide(1.0 / 60);
   const std::vector<SpeculativeContact> found = world.physics().speculative_contacts();
@@ -145,7 +145,7 @@ TEST(Planar, ApproachesTellSpeedAndMassOfWhatWillMeetWithinTheStep) {
   EXPECT_NEAR(found[0].effective_mass_kg, ball.mass_kg, 1e-3 * ball.mass_kg);
 }
 
-TEST(Planar, ApproachesAreFoundWhicheverOfTwoMoves) {
+TEST(Planar, ClosingContactsAreFoundWhicheverBodyMoves) {
   for (const int fast : {0, 1}) {
     RigidWorld world = plane();
     for (const int i : {0, 1}) {
@@ -158,7 +158,7 @@ TEST(Planar, ApproachesAreFoundWhicheverOfTwoMoves) {
   }
 }
 
-TEST(Planar, PenetrationsAreOfWhatPresses) {
+TEST(Planar, PenetrationsAreOfContactsUnderLoad) {
   RigidWorld world = plane();
   world.add(W::ground());
   world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
@@ -175,7 +175,7 @@ TEST(Planar, PenetrationsAreOfWhatPresses) {
   EXPECT_TRUE(loose.physics().penetrations().empty());
 }
 
-TEST(Planar, WhatLiesStillAHairApartTouches) {
+TEST(Planar, BodiesAtRestTwoMillimetresApartTouch) {
   RigidWorld world = plane();
   world.add(W::fixed(W::box(Vec3(2, 1, 1), Vec3(0, -0.5, 0))));
   const BodyId id = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.502, 0)));
@@ -185,7 +185,7 @@ TEST(Planar, WhatLiesStillAHairApartTouches) {
   for (const Touch& touch : touches) EXPECT_NEAR(touch.separation_m, 0.002, 1e-5);
 }
 
-TEST(Planar, TouchesNameBothBodiesAndWhereTheyMeet) {
+TEST(Planar, TouchesHaveBothBodiesAndThePoint) {
   RigidWorld world = plane();
   world.add(W::ground());
   BodyDesc box = W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0));
@@ -202,7 +202,7 @@ TEST(Planar, TouchesNameBothBodiesAndWhereTheyMeet) {
   }
 }
 
-TEST(Planar, NothingIsTouchedFartherOffThanABodyReachesHoweverFastItSpins) {
+TEST(Planar, ASpinningBodyTouchesNothingBeyondItsReach) {
   for (const double gap_m : {0.3, 0.6}) {
     RigidWorld world = plane();
     const BodyDesc bar =
@@ -210,12 +210,12 @@ TEST(Planar, NothingIsTouchedFartherOffThanABodyReachesHoweverFastItSpins) {
     const BodyId id = world.add(bar);
     world.add(W::fixed(W::box(Vec3::Ones(), Vec3(1 + gap_m, 0, 0))));
     world.physics().collide(1.0 / 60);
-    // Its corner is 0.51 m from its centre.
+    // The bar's corner is 0.51 m from its centre.
     EXPECT_EQ(world.physics().touches(std::span(&id, 1)).empty(), gap_m > 0.51) << gap_m;
   }
 }
 
-/// The load on a body that bears it, summed.
+/// Returns the sum of the contact impulses on the body with a tag.
 Vec3 load_on(Physics& physics, std::uint32_t tag) {
   Vec3 sum = Vec3::Zero();
   for (const ContactImpulse& load : physics.contact_impulses())
@@ -223,7 +223,7 @@ Vec3 load_on(Physics& physics, std::uint32_t tag) {
   return sum;
 }
 
-TEST(Planar, ATableBearsTheWeightOfWhatStandsOnItAwakeAndAsleep) {
+TEST(Planar, ATableBearsTheWeightOfABoxAwakeAndAsleep) {
   RigidWorld world = plane();
   BodyDesc table = W::fixed(W::box(Vec3(4, 1, 1), Vec3::Zero()));
   table.tag = 3;
@@ -242,7 +242,7 @@ TEST(Planar, ATableBearsTheWeightOfWhatStandsOnItAwakeAndAsleep) {
               0.02 * box.mass_kg * kG * dt);
 }
 
-TEST(Planar, WhatNobodyPushedFromOutsideKeepsItsMomentum) {
+TEST(Planar, MomentumChangesByTheExternalImpulseOnly) {
   RigidWorld world = plane(1, true);
   world.add(W::ground());
   for (int i = 0; i < 6; ++i) {
@@ -258,7 +258,7 @@ TEST(Planar, WhatNobodyPushedFromOutsideKeepsItsMomentum) {
   }
 }
 
-TEST(Planar, EditsTakeSupportsAwayAndBringThem) {
+TEST(Planar, EditsRemoveAndAddSupports) {
   RigidWorld world = plane();
   BodyDesc table = W::fixed(W::box(Vec3(4, 1, 1), Vec3::Zero()));
   table.shapes[0].tag = 5;
@@ -275,7 +275,7 @@ TEST(Planar, EditsTakeSupportsAwayAndBringThem) {
   EXPECT_NEAR(world.state(box).X_WB.position.y(), -1, 5e-3);
 }
 
-TEST(Planar, ABallOfAThousandMetresASecondDoesNotPassThroughAWallOfOneCentimetre) {
+TEST(Planar, ABallAtAThousandMetresPerSecondDoesNotPassThroughAWallOfOneCentimetre) {
   for (const bool is_static : {true, false}) {
     RigidWorld world = plane(0.1);
     BodyDesc wall = W::box(Vec3(0.01, 2, 1), Vec3(0, 0, 0));
@@ -299,7 +299,7 @@ TEST(Planar, ABodyThatIsNoLongerFiniteIsFrozenAndCounted) {
   EXPECT_TRUE(world.state(id).X_WB.position.allFinite());
 }
 
-TEST(Planar, ABodyFasterThanAnythingIsFrozenAndWhatItHadIsInTheBooks) {
+TEST(Planar, ABodyOverTheSpeedLimitIsFrozenAndItsMomentumIsReported) {
   PlanarOptions weightless;
   weightless.gravity_W = Vec3::Zero();
   RigidWorld world(make_planar_physics(weightless));
@@ -313,7 +313,7 @@ TEST(Planar, ABodyFasterThanAnythingIsFrozenAndWhatItHadIsInTheBooks) {
   EXPECT_EQ(world.state(id).velocity_W, Vec3(Vec3::Zero()));
 }
 
-TEST(Planar, TheSameBitsComeOutOfEveryRunAndAnyNumberOfThreads) {
+TEST(Planar, GivesTheSameBitsInEveryRunForAnyNumberOfThreads) {
   const auto run = [](int count) {
     set_threads(count);
     RigidWorld world = plane(0.5);

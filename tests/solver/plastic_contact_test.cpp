@@ -1,4 +1,4 @@
-// What plastic joints hold, among contacts: quiet shapes, rest, bodies that change, the same bits.
+// Tests of bodies in plastic joints among contacts: shapes that do not collide, sleep, equal bits.
 #include <array>
 #include <bit>
 #include <cstdio>
@@ -14,8 +14,8 @@ namespace {
 
 using W = RigidWorld;
 
-/// A girder of two halves from a wall: it bends at the middle, where its quiet shapes lie over each
-/// other, and comes down on the ground.
+/// A girder of two halves from a wall; it bends at the middle, where its non-colliding shapes
+/// overlap, and falls to the ground.
 struct Girder {
   Frame frame;
   BodyId wall, near, far;
@@ -48,7 +48,7 @@ struct Girder {
   double tip_m() const { return (frame.world.state(far).X_WB * Vec3(1, 0, 0)).y(); }
 };
 
-TEST(PlasticContact, AGirderComesDownOnTheGroundWhileItFlows) {
+TEST(PlasticContact, AGirderFallsToTheGroundWhileItYields) {
   Girder girder;
   double deepest = 0, least_W = 0;
   RigidWorld& world = girder.frame.world;
@@ -72,7 +72,7 @@ TEST(PlasticContact, AGirderComesDownOnTheGroundWhileItFlows) {
   EXPECT_LT(world.kinetic_energy(), 1e-3);
 }
 
-TEST(PlasticContact, BodiesAtRestInItSleepAndStayAsTheyAre) {
+TEST(PlasticContact, BodiesAtRestInPlasticJointsSleepAndDoNotFlow) {
   Girder girder(true);
   girder.frame.run(5, 4);
   EXPECT_TRUE(girder.frame.world.state(girder.near).asleep);
@@ -85,7 +85,7 @@ TEST(PlasticContact, BodiesAtRestInItSleepAndStayAsTheyAre) {
   EXPECT_TRUE(girder.frame.world.state(girder.far).asleep);
 }
 
-TEST(PlasticContact, QuietShapesIgnoreTheOtherBodyAndOthersTouchIt) {
+TEST(PlasticContact, NonCollidingShapesIgnoreTheOtherBodyOnly) {
   const auto two = [](std::vector<std::uint32_t> quiet_a, std::vector<std::uint32_t> quiet_b) {
     RigidWorld world(awake(Vec3::Zero()));
     BodyDesc a = W::box(Vec3(1, 1, 1), Vec3::Zero()), b = W::box(Vec3(1, 1, 1), Vec3(0.9, 0, 0));
@@ -113,7 +113,7 @@ TEST(PlasticContact, QuietShapesIgnoreTheOtherBodyAndOthersTouchIt) {
   EXPECT_EQ(two({6}, {5}), (std::array{2u, 2u, 1u, 2u}));
 }
 
-TEST(PlasticContact, AnEndMovesToAnotherBodyAndFlowsOn) {
+TEST(PlasticContact, AnEndMovesToAnotherBodyAndGoesOnYielding) {
   const BodyDesc bar = W::box(Vec3(2, 0.2, 0.2), Vec3(1, 0, 0));
   const double g = 1.2 * kMoment_Nm / bar.mass_kg;
   Frame whole(Vec3(0, -g, 0)), moved(Vec3(0, -g, 0));
@@ -133,7 +133,7 @@ TEST(PlasticContact, AnEndMovesToAnotherBodyAndFlowsOn) {
   EXPECT_NEAR(moved.work_J, whole.work_J, 1e-3);
 }
 
-TEST(PlasticContact, WhatHasHardenedBearsMore) {
+TEST(PlasticContact, AHardenedJointBearsMore) {
   const BodyDesc bar = W::box(Vec3(2, 0.2, 0.2), Vec3(1, 0, 0));
   Frame frame(Vec3(0, -1.1 * kMoment_Nm / bar.mass_kg, 0));
   const BodyId id = frame.world.add(bar);

@@ -1,4 +1,4 @@
-// Plastic joints against plastic theory: limits, ways, work, momentum and energy.
+// Tests of plastic joints against plastic theory: limits, distances, work, momentum, energy.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace {
 
 using W = RigidWorld;
 
-TEST(PlasticJoint, ABarThatIsThrownStopsWhereItsEnergyIsSpent) {
+TEST(PlasticJoint, AThrownBarStopsWhenItsEnergyIsDissipated) {
   const double tolerance[] = {0.05, 0.015, 0.004};
   for (int i = 0; i < 3; ++i) {
     const int substeps = 1 << 2 * i;
@@ -37,16 +37,16 @@ TEST(PlasticJoint, ABarThatIsThrownStopsWhereItsEnergyIsSpent) {
   }
 }
 
-/// A body held to the world at the origin under so much of what it can bear, by gravity: how far
-/// it comes in a second.
-double way_under(double share, const Vec3& center_W, const Vec3& down_W,
-                 const SectionStrength& bears = strength()) {
+/// Returns the distance that a body moves in one second, held to the world at the origin under
+/// gravity of `share` times its limit load.
+double travel_under(double share, const Vec3& center_W, const Vec3& down_W,
+                    const SectionStrength& bears = strength()) {
   const BodyDesc body = W::box(Vec3(0.5, 0.5, 0.5), center_W);
   const auto load = [&](double g) {
     const Vec3 force = body.mass_kg * g * down_W;
     return utilisation(bears, {force, center_W.cross(force)});
   };
-  double g = share / load(1);  // what is across alone, or axial alone, goes with the load
+  double g = share / load(1);  // A shear or axial force alone scales with the load.
   g *= share / load(g);
   Frame frame(g * down_W);
   const BodyId id = frame.world.add(body);
@@ -56,10 +56,10 @@ double way_under(double share, const Vec3& center_W, const Vec3& down_W,
   return (frame.world.state(id).X_WB.position - center_W).norm();
 }
 
-TEST(PlasticJoint, ASectionStandsUnderAllThatItBearsAndMovesUnderMore) {
+TEST(PlasticJoint, ASectionHoldsBelowItsLimitLoadAndMovesAboveIt) {
   SectionStrength weak = strength();
   weak.shear_N = 100;
-  SectionStrength aslant = strength();  // a section whose normal is not along x
+  SectionStrength aslant = strength();  // A section whose normal is not along x.
   aslant.axes_R = Quat(Eigen::AngleAxisd(0.5, Vec3(1, 2, 3).normalized())).toRotationMatrix();
   const struct {
     const char* what;
@@ -77,13 +77,13 @@ TEST(PlasticJoint, ASectionStandsUnderAllThatItBearsAndMovesUnderMore) {
       {"all of it, aslant", Vec3(1, 0.2, 1), -Vec3::UnitY(), aslant},
   };
   for (const auto& it : cases) {
-    const double stands = way_under(0.97, it.center_W, it.down_W, it.bears);
-    const double moves = way_under(1.03, it.center_W, it.down_W, it.bears);
+    const double stands = travel_under(0.97, it.center_W, it.down_W, it.bears);
+    const double moves = travel_under(1.03, it.center_W, it.down_W, it.bears);
     std::printf("%-22s at 0.97: %.1e m, at 1.03: %.3f m\n", it.what, stands, moves);
     EXPECT_LT(stands, 1e-5) << it.what;
     EXPECT_GT(moves, 0.01) << it.what;
   }
-  EXPECT_LT(way_under(0.97, Vec3(1, 0, 0), -Vec3::UnitX()), 1e-5) << "pressed";
+  EXPECT_LT(travel_under(0.97, Vec3(1, 0, 0), -Vec3::UnitX()), 1e-5) << "pressed";
 }
 
 TEST(PlasticJoint, CompressionDoesNotFlow) {
@@ -95,7 +95,7 @@ TEST(PlasticJoint, CompressionDoesNotFlow) {
   EXPECT_LT((frame.world.state(id).X_WB.position - Vec3(1, 0, 0)).norm(), 1e-3);
 }
 
-TEST(PlasticJoint, ABeamFixedAtBothEndsBearsSixteenMpOverItsLengthSquared) {
+TEST(PlasticJoint, ABeamFixedAtBothEndsBearsSixteenPlasticMomentsOverItsLengthSquared) {
   constexpr int kParts = 8;
   const BodyDesc part = W::box(Vec3(1, 0.2, 0.2), Vec3::Zero());
   for (const double share : {0.95, 1.05}) {
@@ -122,7 +122,7 @@ TEST(PlasticJoint, ABeamFixedAtBothEndsBearsSixteenMpOverItsLengthSquared) {
         EXPECT_LT(sag, 1e-5);
         continue;
       }
-      // Held at both ends, it can sag only as far as these let it be longer.
+      // A beam held at both ends sags only as far as its joints allow it to lengthen.
       EXPECT_GT(sag, 1e-3);
       EXPECT_NEAR(middle, -2, 0.02);
       EXPECT_NEAR(other, 1, 0.02);
@@ -136,41 +136,41 @@ TEST(PlasticJoint, ABeamFixedAtBothEndsBearsSixteenMpOverItsLengthSquared) {
   }
 }
 
-/// A chain of boxes in plastic joints, free.
+/// Adds a free chain of boxes in plastic joints.
 void add_free_chain(Frame& frame, int links, double length_m, const SectionStrength& bears) {
   BodyId last;
   for (int i = 0; i < links; ++i) {
     const BodyId next = frame.world.add(
-        slender(W::box(Vec3(length_m, 0.2, 0.2), Vec3(length_m * (i + 0.5), 0, 0))));
+        with_tiny_shape(W::box(Vec3(length_m, 0.2, 0.2), Vec3(length_m * (i + 0.5), 0, 0))));
     if (i > 0) frame.join(last, next, Vec3(length_m * i, 0, 0), bears);
     last = next;
   }
 }
 
-/// By how much, of all motion at first, the energy of motion rose at most, and that and the work
-/// together; and how momenta changed.
-struct Books {
+/// Largest rises of the kinetic energy and of kinetic energy plus plastic work, over the initial
+/// kinetic energy, and relative changes of momentum and angular momentum.
+struct ConservationErrors {
   double motion = 0, energy = 0, momentum = 0, spin = 0;
 };
-Books keep_books(Frame& frame, double time_s, int substeps) {
-  Books books;
+ConservationErrors measure_conservation(Frame& frame, double time_s, int substeps) {
+  ConservationErrors errors;
   const Vec3 p = frame.world.momentum(), L = frame.world.angular_momentum();
   const double before = frame.world.kinetic_energy();
   double least_motion = before, least = before;
   for (int i = 0; i < std::lround(time_s / kPlasticDt_s); ++i) {
     frame.step(substeps);
     const double motion = frame.world.kinetic_energy();
-    books.motion = std::max(books.motion, (motion - least_motion) / before);
-    books.energy = std::max(books.energy, (motion + frame.work_J - least) / before);
+    errors.motion = std::max(errors.motion, (motion - least_motion) / before);
+    errors.energy = std::max(errors.energy, (motion + frame.work_J - least) / before);
     least_motion = std::min(least_motion, motion);
     least = std::min(least, motion + frame.work_J);
   }
-  books.momentum = (frame.world.momentum() - p).norm() / p.norm();
-  books.spin = (frame.world.angular_momentum() - L).norm() / L.norm();
-  return books;
+  errors.momentum = (frame.world.momentum() - p).norm() / p.norm();
+  errors.spin = (frame.world.angular_momentum() - L).norm() / L.norm();
+  return errors;
 }
 
-TEST(PlasticJoint, AChainThatIsThrownKeepsItsMomentaAndGainsNoEnergy) {
+TEST(PlasticJoint, AThrownChainKeepsItsMomentaAndGainsNoEnergy) {
   for (const int substeps : {1, 4, 16}) {
     Frame frame;
     add_free_chain(frame, 12, 0.5, strength());
@@ -180,22 +180,22 @@ TEST(PlasticJoint, AChainThatIsThrownKeepsItsMomentaAndGainsNoEnergy) {
       frame.world.physics().set_state(frame.world.id(i), state);
     }
     const double energy = frame.world.kinetic_energy();
-    const Books books = keep_books(frame, 1.5, substeps);
+    const ConservationErrors errors = measure_conservation(frame, 1.5, substeps);
     std::printf(
         "chain of 12, %2d substeps: W %.4f, with motion %.4f of E0, rises by %.1e at most; p %.1e, "
         "L %.1e\n",
         substeps, frame.work_J / energy, (frame.work_J + frame.world.kinetic_energy()) / energy,
-        books.energy, books.momentum, books.spin);
-    EXPECT_LT(books.motion, 1e-5);
-    EXPECT_LT(books.energy, 1e-5);
-    EXPECT_LT(books.momentum, 1e-6);
-    EXPECT_LT(books.spin, 1e-5);
+        errors.energy, errors.momentum, errors.spin);
+    EXPECT_LT(errors.motion, 1e-5);
+    EXPECT_LT(errors.energy, 1e-5);
+    EXPECT_LT(errors.momentum, 1e-6);
+    EXPECT_LT(errors.spin, 1e-5);
   }
 }
 
-TEST(PlasticJoint, ManyChainsThatAreThrownKeepTheirMomentaAndGainNoEnergy) {
+TEST(PlasticJoint, ManyThrownChainsKeepTheirMomentaAndGainNoEnergy) {
   Random random(7);
-  Books worst;
+  ConservationErrors worst;
   const auto between = [&](double least, double most) { return random.uniform(least, most); };
   for (int run = 0; run < 200; ++run) {
     Frame frame;
@@ -210,11 +210,11 @@ TEST(PlasticJoint, ManyChainsThatAreThrownKeepTheirMomentaAndGainNoEnergy) {
       state.velocity_W = Vec3(5, 0, 0) + any(), state.angular_velocity_W = any();
       frame.world.physics().set_state(frame.world.id(i), state);
     }
-    const Books books = keep_books(frame, 0.5, 4);
-    worst.motion = std::max(worst.motion, books.motion);
-    worst.energy = std::max(worst.energy, books.energy);
-    worst.momentum = std::max(worst.momentum, books.momentum);
-    worst.spin = std::max(worst.spin, books.spin);
+    const ConservationErrors errors = measure_conservation(frame, 0.5, 4);
+    worst.motion = std::max(worst.motion, errors.motion);
+    worst.energy = std::max(worst.energy, errors.energy);
+    worst.momentum = std::max(worst.momentum, errors.momentum);
+    worst.spin = std::max(worst.spin, errors.spin);
   }
   std::printf("200 chains: motion rises by %.1e, with work by %.1e of E0 at most; p %.1e, L %.1e\n",
               worst.motion, worst.energy, worst.momentum, worst.spin);

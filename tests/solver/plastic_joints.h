@@ -1,4 +1,4 @@
-// Plastic joints in tests: sections, and frames of bodies that they hold.
+// Test fixture: plastic joints with their section strengths, and a world of bodies that they hold.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace sunder::solver {
 inline constexpr double kPlasticDt_s = 1.0 / 60;
 inline constexpr double kMoment_Nm = 1000;
 
-/// Of a bar of 1 cm or so, its normal along x.
+/// Returns the section strength of a bar of about 1 cm with that plastic moment, normal along x.
 inline SectionStrength strength(double moment_Nm = kMoment_Nm) {
   SectionStrength s;
   s.axial_N = 400 * moment_Nm, s.shear_N = 230 * moment_Nm;
@@ -20,7 +20,7 @@ inline SectionStrength strength(double moment_Nm = kMoment_Nm) {
   return s;
 }
 
-/// Shapes without a tag are quiet.
+/// Returns a plastic joint at a point; shapes without a tag do not collide across the joint.
 inline JointDesc plastic_at(const RigidWorld& world, BodyId a, BodyId b, const Vec3& at_W,
                             const SectionStrength& bears = strength()) {
   JointDesc joint = joint_at(world, JointKind::kPlastic, a, b, at_W);
@@ -31,8 +31,8 @@ inline JointDesc plastic_at(const RigidWorld& world, BodyId a, BodyId b, const V
   return joint;
 }
 
-/// What has flowed at a joint.
-struct Flowed {
+/// Sum of the plastic flow of one joint.
+struct FlowSum {
   Vec3 turn_R = Vec3::Zero(), displacement_R = Vec3::Zero();
   double work_J = 0;
 
@@ -41,11 +41,11 @@ struct Flowed {
   }
 };
 
-/// Bodies in plastic joints, and what has flowed in them.
+/// A world of bodies in plastic joints, with the plastic flow summed over all steps.
 struct Frame {
   RigidWorld world;
   std::vector<JointId> joints;
-  std::vector<Flowed> flowed;
+  std::vector<FlowSum> flowed;
   double work_J = 0;
 
   explicit Frame(const Vec3& gravity_W = Vec3::Zero(), bool sleeps = false)
@@ -71,7 +71,7 @@ struct Frame {
   }
 };
 
-/// How far a body is turned, having lain along the axes.
+/// Returns the angle by which a body is rotated from the identity, in rad.
 inline double angle(const RigidWorld& world, BodyId body) {
   return 2 * std::asin(world.state(body).X_WB.rotation.vec().norm());
 }

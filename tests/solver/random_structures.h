@@ -1,4 +1,4 @@
-// Piles, arches, lintels and frames of a few bodies, and the support that each is to lose.
+// Test fixture: random piles, arches, lintels and frames, each with a support to be removed.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace sunder::solver {
 
-/// How the support is lost.
+/// Ways in which the support is lost.
 enum class Loss { kRemoved, kShrunk, kEdited, kDriven, kTeleported, kCut };
 inline constexpr std::array kLossNames = {"removed", "shrunk",     "edited",
                                           "driven",  "teleported", "cut"};
@@ -16,15 +16,15 @@ inline constexpr std::array kLossNames = {"removed", "shrunk",     "edited",
 enum class Kind { kPile, kArch, kFrame };
 inline constexpr std::array kKindNames = {"piles", "arches", "frames"};
 
-/// A structure on the ground, and the support that it will lose.
+/// Bodies on the ground, with the index of the support that the test removes.
 struct Structure {
   std::vector<BodyDesc> bodies;
   std::size_t support = 0;
   Loss loss = Loss::kRemoved;
-  Vec3 top_W = Vec3::Zero();  ///< Of the support of a frame.
+  Vec3 top_W = Vec3::Zero();  ///< Top of the support; only frames set it.
 };
 
-/// Boxes that are dropped one upon the other.
+/// Returns boxes that fall onto each other.
 inline Structure make_pile(Random& random) {
   Structure pile;
   const std::uint32_t count = 3 + random.below(8);
@@ -37,7 +37,7 @@ inline Structure make_pile(Random& random) {
   return pile;
 }
 
-/// Two piers of boxes, a lintel on them, and boxes on that.
+/// Returns two piers of boxes, a lintel on them, and boxes on the lintel.
 inline Structure make_lintel(Random& random) {
   Structure portal;
   const std::uint32_t high = 1 + random.below(4), loads = random.below(4);
@@ -66,7 +66,7 @@ inline Structure make_arch(Random& random) {
   return arch;
 }
 
-/// Slabs on three or four legs each, with a load on the uppermost. The support is a leg of one.
+/// Returns slabs on three or four legs each, with a load on top; the support is one of the legs.
 inline Structure make_frame(Random& random) {
   Structure frame;
   frame.loss = static_cast<Loss>(random.below(kLossNames.size()));
@@ -85,7 +85,7 @@ inline Structure make_frame(Random& random) {
       frame.bodies.push_back(RigidWorld::box(Vec3(leg_m, height, leg_m), foot, 2000));
     }
     level += height + 0.1;
-    // Three legs bear a slab only if its centre is on their side of the diagonal.
+    // Three legs support a slab only if its centre is on their side of the diagonal.
     const double shift = legs == 3 ? 0.2 : random.uniform(-0.1, 0.1);
     frame.bodies.push_back(RigidWorld::box(
         Vec3(length, 0.1, width), Vec3(-shift * length / 2, level - 0.05, -shift * width / 2),

@@ -1,4 +1,5 @@
-// What the rigid solver promises besides truths (bench/truths): sleep, determinism, reports.
+// Tests of the rigid solver beyond the reference behaviour in bench/truths: sleep, determinism, and
+// reports of contacts, loads and momentum.
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -57,7 +58,7 @@ TEST(RigidPhysics, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
-TEST(RigidPhysics, APileFallsAsleepAndStaysSo) {
+TEST(RigidPhysics, APileFallsAsleepAndStaysAsleep) {
   RigidWorld world;
   world.add(W::ground());
   add_pile(world, 100, 11);
@@ -75,7 +76,7 @@ TEST(RigidPhysics, APileFallsAsleepAndStaysSo) {
   EXPECT_LT(depths[depths.size() * 99 / 100], 0.005f);
 }
 
-TEST(RigidPhysics, ASleepingBodyWakesWhenTouchedPushedOrLeftWithoutSupport) {
+TEST(RigidPhysics, ASleepingBodyWakesWhenItIsStruckPushedOrLosesItsSupport) {
   for (const char* how : {"touch", "push", "support"}) {
     RigidWorld world;
     world.add(W::ground());
@@ -112,7 +113,7 @@ TEST(RigidPhysics, ANotFiniteBodyIsFrozenAndCounted) {
     EXPECT_TRUE(world.state(world.id(i)).X_WB.position.allFinite());
 }
 
-TEST(RigidPhysics, ReportsApproachesBeforeTheyTouch) {
+TEST(RigidPhysics, ReportsClosingContactsBeforeTheBodiesTouch) {
   RigidWorld world(weightless());
   BodyDesc wall = W::fixed(W::box(Vec3(0.1, 2, 2), Vec3::Zero()));
   wall.tag = 4;
@@ -132,13 +133,13 @@ TEST(RigidPhysics, ReportsApproachesBeforeTheyTouch) {
   EXPECT_LT((approach.point_W - Vec3(-0.05, 0.3, 0)).norm(), 1e-4);
 }
 
-/// After how many steps a cube's approach to a leaning plank is reported; both are as they are
-/// whichever way they were turned when they were modelled.
-int steps_to_approach(bool turned) {
+/// Returns the number of steps until the closing contact of a cube with a tilted plank is reported.
+/// The bodies in the world are the same whether or not their shapes were modelled rotated.
+int steps_to_closing_contact(bool rotated) {
   RigidWorld world(weightless());
-  BodyDesc plank = W::box(turned ? Vec3(0.1, 2, 2) : Vec3(2, 0.1, 2), Vec3::Zero());
+  BodyDesc plank = W::box(rotated ? Vec3(0.1, 2, 2) : Vec3(2, 0.1, 2), Vec3::Zero());
   BodyDesc cube = W::box(Vec3::Constant(0.4), Vec3(-1.2, 0, 0));
-  const double angle = (turned ? -0.25 : 0.25) * 3.14159265358979;
+  const double angle = (rotated ? -0.25 : 0.25) * 3.14159265358979;
   plank.X_WB.rotation = cube.X_WB.rotation = Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
   cube.velocity_W = Vec3(20, 0, 0);
   world.add(W::fixed(plank));
@@ -151,13 +152,13 @@ int steps_to_approach(bool turned) {
   return -1;
 }
 
-TEST(RigidPhysics, ReportsAnApproachHoweverTheBodiesWereTurnedWhenTheyWereModelled) {
-  // Its face is 1.2/√2 − 0.25 m from the plank's and closes by 0.1/√2 m a step.
-  EXPECT_EQ(steps_to_approach(false), 8);
-  EXPECT_EQ(steps_to_approach(true), 8);
+TEST(RigidPhysics, ReportsAClosingContactForAnyRotationOfTheModels) {
+  // The cube's face is 1.2/√2 − 0.25 m from the plank's face, and closes by 0.1/√2 m per step.
+  EXPECT_EQ(steps_to_closing_contact(false), 8);
+  EXPECT_EQ(steps_to_closing_contact(true), 8);
 }
 
-TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
+TEST(RigidPhysics, ReportsContactLoadsOnABodyAsleepOrAwake) {
   RigidWorld world;
   BodyDesc table = W::fixed(W::box(Vec3(2, 1, 2), Vec3(0, 0.5, 0)));
   table.reports_load = true;
@@ -175,7 +176,7 @@ TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
     if (world.state(weight).asleep) break;
   }
   ASSERT_TRUE(world.state(weight).asleep);
-  EXPECT_NEAR(sum.y(), -falling, 0.01 * falling);  // what came down was stopped by the table
+  EXPECT_NEAR(sum.y(), -falling, 0.01 * falling);  // The table stopped all of the box's fall.
   world.step(dt, 4);
   const std::vector<ContactImpulse> loads = world.physics().contact_impulses();
   ASSERT_EQ(loads.size(), 1u);
@@ -185,7 +186,7 @@ TEST(RigidPhysics, ReportsWhatPressesOnABodyThatBearsLoadAsleepOrAwake) {
   EXPECT_LT((loads[0].point_W - Vec3(0.5, 1, 0.25)).norm(), 0.02);
 }
 
-TEST(RigidPhysics, AFrozenBodyStandsAsAWall) {
+TEST(RigidPhysics, AFrozenBodyActsAsAStaticOne) {
   RigidWorld world(weightless());
   const BodyId box = world.add(W::box(Vec3::Ones(), Vec3::Zero(), 1));
   world.physics().apply_impulse(box, Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0),
@@ -214,7 +215,7 @@ TEST(RigidPhysics, AccountsForTheMomentumOfARebound) {
   EXPECT_TRUE(rebounds);
 }
 
-TEST(RigidPhysics, ABodyThatLayStillIsLookedAtAgainWhenItIsPushed) {
+TEST(RigidPhysics, AnImpulseOnABodyAtRestIsSeenByTheNextCollide) {
   RigidWorld world(weightless());
   world.add(W::fixed(W::box(Vec3::Ones(), Vec3(1.2, 0, 0))));
   const BodyDesc box = W::box(Vec3::Ones(), Vec3::Zero());
@@ -227,7 +228,7 @@ TEST(RigidPhysics, ABodyThatLayStillIsLookedAtAgainWhenItIsPushed) {
   EXPECT_EQ(world.physics().speculative_contacts().size(), 1u);
 }
 
-TEST(RigidPhysics, AHalfSpaceGoesThroughItsPointHoweverItsBodyIsTurned) {
+TEST(RigidPhysics, AHalfSpaceGoesThroughItsPointForAnyRotationOfItsBody) {
   RigidWorld world;
   BodyDesc ground = W::ground(Vec3::UnitX());
   ground.X_WB.position = Vec3(0, 3, 0);

@@ -1,4 +1,4 @@
-// Rubble: how deep its pieces press into each other, how still they lie, and how soon they sleep.
+// Tests of rubble: penetration at rest, remaining speed, and time until sleep.
 #include <algorithm>
 #include <cstdio>
 
@@ -17,9 +17,9 @@ constexpr double kDt_s = 1.0 / 60;
 constexpr int kSubsteps = 8;
 constexpr std::size_t kWalls = 5;
 
-/// 300 hulls of 10 to 50 cm, some 500 times as heavy as others, above a pit.
+/// Adds 300 hulls of 10 to 50 cm above a pit; the mass ratio is up to 500.
 void add_rubble(RigidWorld& world, std::uint64_t seed) {
-  constexpr double kPitch_m = 0.45, kHalf_m = 1.425;  // as solver_bench has it
+  constexpr double kPitch_m = 0.45, kHalf_m = 1.425;  // The values of solver_bench.
   world.add(W::ground());
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
     BodyDesc wall = W::ground(normal);
@@ -32,7 +32,8 @@ void add_rubble(RigidWorld& world, std::uint64_t seed) {
     std::vector<Vec3> points(8 + random.below(9));
     for (Vec3& point : points) point = 0.5 * size * random.direction();
     const Vec3 cell(i % 5 - 2, i / 25, i / 5 % 5 - 2);
-    Vec3 jitter(0, 0.4, 0);  // in this order, whoever compiles it
+    // One statement per component fixes the order of the random numbers for every compiler.
+    Vec3 jitter(0, 0.4, 0);
     jitter.x() = random.uniform(-0.05, 0.05);
     jitter.z() = random.uniform(-0.05, 0.05);
     world.add(W::hull(make_hull(points), kPitch_m * cell + jitter, 2000));
@@ -40,7 +41,7 @@ void add_rubble(RigidWorld& world, std::uint64_t seed) {
 }
 
 struct Depth {
-  double mean_m = 0, most_m = 0;
+  double mean_m = 0, max_m = 0;
 };
 
 Depth depth_of(RigidWorld& world) {
@@ -48,7 +49,7 @@ Depth depth_of(RigidWorld& world) {
   const std::vector<float> depths = world.physics().penetrations();
   for (const float d : depths) {
     depth.mean_m += double{d} / static_cast<double>(depths.size());
-    depth.most_m = std::max(depth.most_m, double{d});
+    depth.max_m = std::max(depth.max_m, double{d});
   }
   return depth;
 }
@@ -66,36 +67,36 @@ double share_asleep(const RigidWorld& world) {
   return asleep / static_cast<double>(world.size() - kWalls);
 }
 
-RigidOptions never_asleep() {
+RigidOptions without_sleep() {
   RigidOptions options;
   options.sleeping = false;
   return options;
 }
 
-// Which contact is the deepest is chance, 1 to 6 mm in one pile: the mean of several counts, too.
-TEST(Rubble, AtRestPressesItsPiecesIntoEachOtherByAFewMillimetresAndLiesStill) {
+// The deepest contact of one pile varies from 1 to 6 mm, so the mean over piles is tested too.
+TEST(Rubble, AtRestPenetratesByAFewMillimetresAndDoesNotMove) {
   constexpr int kPiles = 3;
-  double most_m = 0;
+  double max_m = 0;
   for (std::uint64_t seed = 1; seed <= kPiles; ++seed) {
-    RigidWorld world(never_asleep());
+    RigidWorld world(without_sleep());
     add_rubble(world, seed);
     world.run(10, kDt_s, kSubsteps);
     const Depth depth = depth_of(world);
     std::printf("300 hulls: %.3f mm deep, %.2f mm at most, rms speed %.1e m/s\n",
-                1e3 * depth.mean_m, 1e3 * depth.most_m, rms_speed(world));
+                1e3 * depth.mean_m, 1e3 * depth.max_m, rms_speed(world));
     EXPECT_LT(depth.mean_m, 0.2e-3);
-    EXPECT_LT(depth.most_m, 5e-3);
+    EXPECT_LT(depth.max_m, 5e-3);
     EXPECT_LT(rms_speed(world), 1e-4);
-    most_m += depth.most_m / kPiles;
+    max_m += depth.max_m / kPiles;
   }
-  EXPECT_LT(most_m, 4e-3);
+  EXPECT_LT(max_m, 4e-3);
 }
 
-// Chance decides which contact of a pile is the deepest, so several piles are compared.
-TEST(Rubble, SleepsWithinThreeSecondsOfItsRestAndNoDeeperThanAwake) {
+// The deepest contact of a pile varies by chance, so the sums over several piles are compared.
+TEST(Rubble, SleepsWithinThreeSecondsOfRestWithoutMorePenetration) {
   Depth allowed, depth;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    RigidWorld awake(never_asleep()), world;
+    RigidWorld awake(without_sleep()), world;
     add_rubble(awake, seed);
     add_rubble(world, seed);
     double rest_s = 0;
@@ -109,21 +110,21 @@ TEST(Rubble, SleepsWithinThreeSecondsOfItsRestAndNoDeeperThanAwake) {
     std::printf(
         "300 hulls at rest after %.1f s, 3 s later %.1f %% asleep; %.3f mm deep, %.2f mm at "
         "most, awake %.3f and %.2f mm\n",
-        rest_s, 100 * share_asleep(world), 1e3 * of_asleep.mean_m, 1e3 * of_asleep.most_m,
-        1e3 * of_awake.mean_m, 1e3 * of_awake.most_m);
+        rest_s, 100 * share_asleep(world), 1e3 * of_asleep.mean_m, 1e3 * of_asleep.max_m,
+        1e3 * of_awake.mean_m, 1e3 * of_awake.max_m);
     EXPECT_LT(rest_s, 10);
     EXPECT_GT(share_asleep(world), 0.9);
     EXPECT_LT(of_asleep.mean_m, 1.1 * of_awake.mean_m);
-    depth.most_m += of_asleep.most_m;
-    allowed.most_m += of_awake.most_m;
+    depth.max_m += of_asleep.max_m;
+    allowed.max_m += of_awake.max_m;
   }
-  EXPECT_LT(depth.most_m, 1.1 * allowed.most_m);
+  EXPECT_LT(depth.max_m, 1.1 * allowed.max_m);
 }
 
-// Nothing else holds the slab: on contacts as stiff as others get it would be thrown for ever.
-TEST(Rubble, ASlabOnPebblesAloneLiesStill) {
+// The slab rests on pebbles only; contacts of the usual stiffness would throw it up forever.
+TEST(Rubble, ASlabOnPebblesAloneComesToRest) {
   constexpr double kPebble_m = 0.06, kDrop_m = 0.005;
-  RigidWorld world(never_asleep());
+  RigidWorld world(without_sleep());
   world.add(W::ground());
   for (const Vec3& at : {Vec3(0, 0, 0.25), Vec3(-0.2, 0, -0.15), Vec3(0.2, 0, -0.15)})
     world.add(W::box(kPebble_m * Vec3(1, 1, 1), at + 0.5 * kPebble_m * Vec3::UnitY(), 2000));
@@ -135,14 +136,14 @@ TEST(Rubble, ASlabOnPebblesAloneLiesStill) {
                        2000));
   world.run(10, kDt_s, kSubsteps);
   const Depth depth = depth_of(world);
-  std::printf("slab on pebbles: %.2f mm at most, speed %.1e m/s\n", 1e3 * depth.most_m,
+  std::printf("slab on pebbles: %.2f mm at most, speed %.1e m/s\n", 1e3 * depth.max_m,
               world.state(slab).velocity_W.norm());
   EXPECT_LT(world.state(slab).velocity_W.norm(), 1e-4);
-  EXPECT_LT(depth.most_m, 6e-3);  // 9.8 as soft as by their mass
+  EXPECT_LT(depth.max_m, 6e-3);  // 9.8 mm with the stiffness that follows from the pebbles' mass.
 }
 
-// A stone on three corners: the fourth point is far above the ground but spans the most.
-TEST(Rubble, APieceStandsOnItsLowestPointsAndNotOnThoseThatSpanTheMost) {
+// A stone on three corners; the fourth point is far above the ground but spans the largest area.
+TEST(Rubble, ReducingAManifoldKeepsTheDeepestPointsBeforeTheWidest) {
   const auto point = [](double x, double z, double separation, std::uint32_t feature) {
     const Vec3f at(static_cast<float>(x), 0, static_cast<float>(z));
     return PatchPoint{at, at, static_cast<float>(separation), feature};

@@ -1,4 +1,4 @@
-// The separating axis that the narrow phase finds, against every face and every pair of edges.
+// Tests of the separating axis against a search over all faces and all pairs of edges.
 #include "solver/rigid/collide/separation.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace sunder::solver {
 namespace {
 
-constexpr float kFloats_m = 1e-5f;  // what rounding may make of hulls a metre wide
+constexpr float kRounding_m = 1e-5f;  // Rounding error of distances for hulls of about a metre.
 
 Hull random_hull(Random& random) {
   std::vector<Vec3> points;
@@ -41,7 +41,7 @@ Vec3f along_edge(const Hull& hull, std::uint32_t e) {
   return (hull.vertex(to) - hull.vertex(from)).normalized();
 }
 
-/// The largest gap along any face normal and any cross product of edges.
+/// Returns the largest gap along any face normal and any cross product of edges.
 float largest_gap(const Hull& a, const Hull& b, const RelativePose& pose) {
   float largest = -1e30f;
   const auto consider = [&](const Vec3f& axis) {
@@ -59,14 +59,14 @@ float largest_gap(const Hull& a, const Hull& b, const RelativePose& pose) {
   return largest;
 }
 
-SeparatingAxis found(const Hull& a, const Hull& b, const RelativePose& pose,
-                     const AxisReach& reach) {
+SeparatingAxis find_axis(const Hull& a, const Hull& b, const RelativePose& pose,
+                         const AxisReach& reach) {
   HullScratch scratch;
   place_in_each_other(a, b, pose, scratch);
   return separating_axis(a, b, pose, reach, 0, scratch);
 }
 
-TEST(SeparatingAxis, OfHullsThatOverlapIsTheBestOfAll) {
+TEST(SeparatingAxis, OfOverlappingHullsHasTheLargestSeparationOfAllAxes) {
   Random random(1);
   int overlaps = 0, edges = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -75,37 +75,37 @@ TEST(SeparatingAxis, OfHullsThatOverlapIsTheBestOfAll) {
     const float largest = largest_gap(a, b, pose);
     if (largest > 0) continue;
     ++overlaps;
-    const SeparatingAxis axis = found(a, b, pose, {1e30f, Vec3f::Zero()});
-    EXPECT_NEAR(axis.separation_m, largest, kFloats_m);
-    EXPECT_NEAR(gap_along(axis.normal_A, a, b, pose), axis.separation_m, kFloats_m);
+    const SeparatingAxis axis = find_axis(a, b, pose, {1e30f, Vec3f::Zero()});
+    EXPECT_NEAR(axis.separation_m, largest, kRounding_m);
+    EXPECT_NEAR(gap_along(axis.normal_A, a, b, pose), axis.separation_m, kRounding_m);
     edges += axis.kind == SeparatingAxis::Kind::kEdges;
   }
   EXPECT_GT(overlaps, 500);
   EXPECT_GT(edges, 100);
 }
 
-TEST(SeparatingAxis, PartsHullsThatAreApart) {
+TEST(SeparatingAxis, OfDistantHullsHasAPositiveSeparation) {
   Random random(2);
   int apart = 0, edges = 0;
   for (int i = 0; i < 1500; ++i) {
     const Hull a = random_hull(random), b = random_hull(random);
     const RelativePose pose = random_pose(random, 0.7, 1.2);
-    if (largest_gap(a, b, pose) < kFloats_m) continue;
+    if (largest_gap(a, b, pose) < kRounding_m) continue;
     ++apart;
-    const SeparatingAxis axis = found(a, b, pose, {0, Vec3f::Zero()});
+    const SeparatingAxis axis = find_axis(a, b, pose, {0, Vec3f::Zero()});
     EXPECT_GT(axis.separation_m, 0);
-    EXPECT_NEAR(gap_along(axis.normal_A, a, b, pose), axis.separation_m, kFloats_m);
-    EXPECT_NEAR(separation_along(axis.normal_A, a, b, pose), axis.separation_m, kFloats_m);
+    EXPECT_NEAR(gap_along(axis.normal_A, a, b, pose), axis.separation_m, kRounding_m);
+    EXPECT_NEAR(separation_along(axis.normal_A, a, b, pose), axis.separation_m, kRounding_m);
     edges += axis.kind == SeparatingAxis::Kind::kEdges;
   }
   EXPECT_GT(apart, 500);
   EXPECT_GT(edges, 20);
 }
 
-TEST(SeparatingAxis, OfPlatesWithFacesInOnePlaneIsTheFirstOfThese) {
+TEST(SeparatingAxis, OfPlatesWithCoplanarFacesIsTheFirstSeparatingFace) {
   const Hull plate(make_box(Vec3(-1, -0.1, -1), Vec3(1, 0.1, 1)), Vec3::Zero());
   const RelativePose pose = {Mat3f::Identity(), Vec3f(2.2f, 0, 2.2f)};
-  const SeparatingAxis axis = found(plate, plate, pose, {1e30f, Vec3f::Zero()});
+  const SeparatingAxis axis = find_axis(plate, plate, pose, {1e30f, Vec3f::Zero()});
   std::uint32_t first = 0;
   while (gap_along(plate.normal(first), plate, plate, pose) < 0.1f) ++first;
   EXPECT_EQ(axis.kind, SeparatingAxis::Kind::kFaceA);

@@ -1,6 +1,5 @@
-// No length, speed or time of the solver's own: what stands, rolls, sleeps and wakes as pebbles
-// does so as boulders. With gravity as it is, lengths times s and times times √s is the same
-// motion; if s is a power of four, to the last bit.
+// Tests that the solver has no length, speed or time of its own. At constant gravity, lengths times
+// s and times times √s give the same motion; if s is a power of four, to the last bit.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,10 +14,10 @@ namespace {
 
 using W = RigidWorld;
 constexpr double kG = 9.81;
-constexpr double kDt_s = 1.0 / 128;  // of what is a metre
+constexpr double kDt_s = 1.0 / 128;  // Step of a scene of size 1.
 constexpr int kSubsteps = 8;
 
-/// A description of metres at another size.
+/// Returns a description, given in metres, scaled to size s.
 BodyDesc scaled(BodyDesc desc, double s) {
   desc.X_WB.position *= s;
   desc.com_R *= s;
@@ -38,13 +37,13 @@ BodyDesc scaled(BodyDesc desc, double s) {
   return desc;
 }
 
-/// What is there in the end, in metres and seconds of the size of one.
-struct Seen {
+/// State of a scene at the end of a run, in metres and seconds of size 1.
+struct Outcome {
   std::vector<BodyState> states;
-  double slept_s = -1;     ///< When all slept first; negative: never.
-  double penetration = 0;  ///< The deepest.
-  double fastest = 0;      ///< In the end.
-  double farthest = 0;     ///< From the origin, in the end.
+  double slept_s = -1;     ///< Time when all bodies slept first; negative if they never did.
+  double penetration = 0;  ///< Maximum penetration.
+  double fastest = 0;      ///< Maximum speed at the end.
+  double farthest = 0;     ///< Maximum distance from the origin at the end.
 };
 
 bool all_sleep(const RigidWorld& world) {
@@ -53,32 +52,32 @@ bool all_sleep(const RigidWorld& world) {
   return true;
 }
 
-/// Runs bodies of metres at size s for `seconds`; then `late` ones come, for as long again.
-Seen run(const std::vector<BodyDesc>& bodies, const std::vector<BodyDesc>& late, double seconds,
-         double s) {
+/// Runs bodies at size s for `seconds`; then adds late bodies, if any, and runs again as long.
+Outcome run(const std::vector<BodyDesc>& bodies, const std::vector<BodyDesc>& late, double seconds,
+            double s) {
   RigidWorld world;
   for (const BodyDesc& body : bodies) world.add(scaled(body, s));
   const double dt_s = kDt_s * std::sqrt(s);
   const int steps = static_cast<int>(seconds / kDt_s);
-  Seen seen;
+  Outcome outcome;
   for (int i = 0; i < (late.empty() ? steps : 2 * steps); ++i) {
     if (i == steps)
       for (const BodyDesc& body : late) world.add(scaled(body, s));
     world.step(dt_s, kSubsteps);
-    if (seen.slept_s < 0 && all_sleep(world)) seen.slept_s = (i + 1) * kDt_s;
+    if (outcome.slept_s < 0 && all_sleep(world)) outcome.slept_s = (i + 1) * kDt_s;
   }
   for (const float depth : world.physics().penetrations())
-    seen.penetration = std::max(seen.penetration, double{depth} / s);
+    outcome.penetration = std::max(outcome.penetration, double{depth} / s);
   for (std::size_t i = 1; i < world.size(); ++i) {
     BodyState state = world.state(world.id(i));
     state.X_WB.position /= s;
     state.velocity_W /= std::sqrt(s);
     state.angular_velocity_W *= std::sqrt(s);
-    seen.fastest = std::max(seen.fastest, state.velocity_W.norm());
-    seen.farthest = std::max(seen.farthest, state.X_WB.position.norm());
-    seen.states.push_back(state);
+    outcome.fastest = std::max(outcome.fastest, state.velocity_W.norm());
+    outcome.farthest = std::max(outcome.farthest, state.X_WB.position.norm());
+    outcome.states.push_back(state);
   }
-  return seen;
+  return outcome;
 }
 
 struct Scene {
@@ -141,7 +140,7 @@ Scene debris() {
   return scene;
 }
 
-/// A wall that has fallen asleep is hit.
+/// A ball strikes a wall that sleeps.
 Scene wall() {
   Scene scene{"wall that is hit", {W::ground()}, {}, 2.5, true};
   for (int row = 0; row < 5; ++row)
@@ -155,7 +154,7 @@ Scene wall() {
   return scene;
 }
 
-/// Pieces that begin within each other.
+/// Pieces that overlap at the start.
 Scene overlap() {
   Scene scene{"pieces that overlap", {W::ground()}, {}, 4, true};
   for (int i = 0; i < 27; ++i)
@@ -168,7 +167,7 @@ std::vector<Scene> scenes() {
   return {heap(), stack(), arch(), cards(), debris(), wall(), overlap()};
 }
 
-std::size_t differing(const Seen& a, const Seen& b) {
+std::size_t differing(const Outcome& a, const Outcome& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.states.size(); ++i) {
     const BodyState &x = a.states[i], &y = b.states[i];
@@ -179,11 +178,11 @@ std::size_t differing(const Seen& a, const Seen& b) {
   return count;
 }
 
-TEST(Similarity, ScenesOfAnySizeMoveAlikeToTheLastBit) {
+TEST(Similarity, ScenesOfAnySizeMoveIdentically) {
   for (const Scene& scene : scenes()) {
-    const Seen one = run(scene.bodies, scene.late, scene.seconds, 1);
+    const Outcome one = run(scene.bodies, scene.late, scene.seconds, 1);
     for (const double s : {1.0 / 256, 1.0 / 16, 16.0, 1024.0}) {
-      const Seen other = run(scene.bodies, scene.late, scene.seconds, s);
+      const Outcome other = run(scene.bodies, scene.late, scene.seconds, s);
       std::printf("%-20s x %8.3g: %zu of %zu differ; asleep after %.2f, %.2f\n", scene.name, s,
                   differing(one, other), one.states.size(), one.slept_s, other.slept_s);
       EXPECT_EQ(differing(one, other), 0u) << scene.name << " at " << s;
@@ -192,12 +191,12 @@ TEST(Similarity, ScenesOfAnySizeMoveAlikeToTheLastBit) {
   }
 }
 
-TEST(Similarity, ScenesOfTenAndAHundredTimesTheSizeComeToTheSameRest) {
+TEST(Similarity, ScenesOfTenAndAHundredTimesTheSizeComeToRestInTheSamePlaces) {
   for (const Scene& scene : scenes()) {
-    const Seen one = run(scene.bodies, scene.late, scene.seconds, 1);
+    const Outcome one = run(scene.bodies, scene.late, scene.seconds, 1);
     EXPECT_GT(one.slept_s, 0) << scene.name;
     for (const double s : {0.01, 0.1, 10.0, 100.0}) {
-      const Seen other = run(scene.bodies, scene.late, scene.seconds, s);
+      const Outcome other = run(scene.bodies, scene.late, scene.seconds, s);
       double moved = 0;
       for (std::size_t i = 0; i < one.states.size(); ++i)
         moved =
@@ -209,15 +208,15 @@ TEST(Similarity, ScenesOfTenAndAHundredTimesTheSizeComeToTheSameRest) {
       EXPECT_LT(other.fastest, 1e-5) << scene.name << " at " << s;
       EXPECT_LT(other.penetration, 1e-3) << scene.name << " at " << s;
       EXPECT_LT(other.farthest, 1.5 * one.farthest) << scene.name << " at " << s;
-      // Decimal sizes are rounded in binary; what tumbles makes more of it.
+      // Decimal sizes are rounded in binary, and chaotic scenes amplify the differences.
       if (scene.chaotic) continue;
       EXPECT_LT(moved, 1e-4) << scene.name << " at " << s;
     }
   }
 }
 
-// One step for all: pebbles of a centimetre lie and stand among blocks of ten metres.
-TEST(Similarity, PebblesAndBouldersOfOneSceneStandSleepAndPressAlike) {
+// One step size for all: pebbles of a centimetre stand and lie among blocks of ten metres.
+TEST(Similarity, PebblesAndBouldersOfOneSceneStandAndSleepWithPenetrationsBelowOnePerCent) {
   RigidWorld world;
   world.add(W::ground());
   std::vector<double> sizes;
@@ -228,8 +227,10 @@ TEST(Similarity, PebblesAndBouldersOfOneSceneStandSleepAndPressAlike) {
     stands.push_back(stays ? at : Vec3(0, -1, 0));
   };
   for (int i = 0; i < 5; ++i) add(10, Vec3(0, 5 + 10 * i, 0), true);
-  for (int i = 0; i < 5; ++i) add(0.01, Vec3(20, 0.005 + 0.01 * i, 0), true);  // on the ground
-  for (int i = 0; i < 5; ++i) add(0.01, Vec3(3, 50.005 + 0.01 * i, 0), true);  // on the boulders
+  // Pebbles on the ground.
+  for (int i = 0; i < 5; ++i) add(0.01, Vec3(20, 0.005 + 0.01 * i, 0), true);
+  // Pebbles on the boulders.
+  for (int i = 0; i < 5; ++i) add(0.01, Vec3(3, 50.005 + 0.01 * i, 0), true);
   for (int i = 0; i < 4; ++i) add(10, Vec3(60 + 3 * (i % 2), 8 + 13 * i, 2 * (i % 3)), false);
   for (int i = 0; i < 40; ++i)
     add(0.01, Vec3(10 + 0.004 * (i % 3), 0.01 + 0.012 * i, 0.003 * (i % 5)), false);

@@ -1,4 +1,5 @@
-// Sleep below the level of an island: what rests sleeps, beside what moves, and wakes in time.
+// Tests of sleep per body: bodies at rest sleep although others of their island move, and wake when
+// their support or load changes.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -16,7 +17,7 @@ constexpr double kDt_s = 1.0 / 60;
 constexpr int kSubsteps = 4;
 const Vec3 kBrick(0.4, 0.2, 0.2);
 
-/// Bricks in running bond, row after row; the answer lists them.
+/// Adds bricks in running bond, row by row, and returns them.
 std::vector<BodyId> add_wall(RigidWorld& world, int columns, int rows) {
   std::vector<BodyId> bricks;
   for (int row = 0; row < rows; ++row)
@@ -32,17 +33,17 @@ std::size_t asleep(const RigidWorld& world, const std::vector<BodyId>& ids) {
       std::count_if(ids.begin(), ids.end(), [&](BodyId id) { return world.state(id).asleep; }));
 }
 
-RigidOptions sleeping(bool yes) {
+RigidOptions sleeping(bool enabled) {
   RigidOptions options;
-  options.sleeping = yes;
+  options.sleeping = enabled;
   return options;
 }
 
-TEST(Sleep, WhatRestsSleepsBesideWhatMoves) {
+TEST(Sleep, BodiesAtRestSleepBesideMovingOnes) {
   RigidWorld world;
   world.add(W::ground());
   const std::vector<BodyId> wall = add_wall(world, 8, 8);
-  // A top that spins on the wall for ever keeps only itself awake.
+  // A ball that spins on the wall forever keeps only itself awake.
   BodyDesc top = W::with_friction(W::sphere(0.1, Vec3(1, 1.7, 0), 100), 0);
   top.angular_velocity_W = Vec3(0, 20, 0);
   const BodyId spinning = world.add(top);
@@ -79,7 +80,7 @@ TEST(Sleep, NothingSleepsWithoutASupport) {
   const BodyId plank = world.add(W::box(Vec3(2, 0.1, 0.4), Vec3(0, 50, 0)));
   const BodyId brick = world.add(W::box(kBrick, Vec3(0, 50.15, 0)));
   for (int i = 0; i < 120; ++i) {
-    // Held by pushes alone: at rest, but on nothing.
+    // Impulses alone hold the bodies, so they are at rest without support.
     for (const BodyId id : {plank, brick}) {
       const double mass = id == plank ? 80 : 16;
       world.physics().apply_impulse(id, Vec3(0, 9.81 * kDt_s * mass, 0),
@@ -91,7 +92,7 @@ TEST(Sleep, NothingSleepsWithoutASupport) {
   EXPECT_FALSE(world.state(brick).asleep);
 }
 
-/// Speeds of a tower's boxes in the step after the lowest is taken out.
+/// Returns the vertical speeds of a tower's boxes in the step after the lowest box is removed.
 std::vector<double> speeds_without_support(bool sleep) {
   RigidWorld world(sleeping(sleep));
   world.add(W::ground());
@@ -110,14 +111,15 @@ std::vector<double> speeds_without_support(bool sleep) {
   return speeds;
 }
 
-TEST(Sleep, WhatStoodOnARemovedBodyFallsAsIfItHadNeverSlept) {
-  const std::vector<double> here = speeds_without_support(true);
-  const std::vector<double> twin = speeds_without_support(false);
-  EXPECT_LT(twin[0], -0.1);
-  for (std::size_t i = 0; i < twin.size(); ++i) EXPECT_NEAR(here[i], twin[i], 1e-3) << i;
+TEST(Sleep, BodiesOnARemovedSupportFallAsInAWorldWithoutSleep) {
+  const std::vector<double> with_sleep = speeds_without_support(true);
+  const std::vector<double> without_sleep = speeds_without_support(false);
+  EXPECT_LT(without_sleep[0], -0.1);
+  for (std::size_t i = 0; i < without_sleep.size(); ++i)
+    EXPECT_NEAR(with_sleep[i], without_sleep[i], 1e-3) << i;
 }
 
-/// The height by which a body falls within a second.
+/// Returns the distance that a body falls within a second.
 double fall_m(RigidWorld& world, BodyId body) {
   const double from_m = world.state(body).X_WB.position.y();
   world.run(1, kDt_s, kSubsteps);
@@ -137,7 +139,7 @@ TEST(Sleep, ATableFallsOverALegThatCarriedAFifthOfIt) {
   EXPECT_GT(fall_m(world, top), 0.2);
 }
 
-TEST(Sleep, ABodyFallsThatLosesManySupportsOneByOne) {
+TEST(Sleep, ABodyFallsAfterItsManySupportsAreRemovedOneByOne) {
   RigidWorld world;
   world.add(W::ground());
   std::vector<BodyId> legs;
@@ -151,7 +153,7 @@ TEST(Sleep, ABodyFallsThatLosesManySupportsOneByOne) {
   EXPECT_GT(fall_m(world, slab), 0.25);
 }
 
-TEST(Sleep, ABodyFollowsAKinematicSupportThatIsPutALittleLower) {
+TEST(Sleep, ABodyFollowsAKinematicSupportThatIsLowered) {
   RigidWorld world;
   BodyDesc table = W::box(Vec3(4, 1, 4), Vec3(0, -0.5, 0));
   table.is_kinematic = true;
@@ -168,14 +170,14 @@ TEST(Sleep, ABodyFollowsAKinematicSupportThatIsPutALittleLower) {
   EXPECT_NEAR(fall_m(world, box), 0.004, 1e-3);
 }
 
-TEST(Sleep, AChangedLoadWakesALightBodyButNotWhatHardlyFeelsIt) {
+TEST(Sleep, AChangedLoadWakesALightBodyAndNotAHeavyOne) {
   RigidWorld world;
   world.add(W::ground());
   const BodyId heavy = world.add(W::box(Vec3(2, 1, 2), Vec3(0, 0.5, 0), 5000));
   const BodyId light = world.add(W::box(Vec3(1, 0.2, 1), Vec3(5, 0.1, 0), 100));
   world.run(3, kDt_s, kSubsteps);
   ASSERT_TRUE(world.state(heavy).asleep && world.state(light).asleep);
-  // Put down without a hit: only the load tells.
+  // The boxes are put down without impact, so only the changed load can wake.
   world.add(W::box(Vec3(0.4, 0.4, 0.4), Vec3(0, 1.2, 0), 1000));
   world.add(W::box(Vec3(0.4, 0.4, 0.4), Vec3(5, 0.4, 0), 1000));
   bool heavy_woke = false, light_woke = false;
@@ -188,33 +190,37 @@ TEST(Sleep, AChangedLoadWakesALightBodyButNotWhatHardlyFeelsIt) {
   EXPECT_FALSE(heavy_woke);
 }
 
-/// Bricks of a wall that moved over a centimetre after some of the lowest row were taken out.
+/// Returns, for each brick above the lowest row, true if it moved by more than a centimetre after
+/// ten bricks of that row were removed.
 std::vector<bool> moved_without_supports(bool sleep) {
   RigidWorld world(sleeping(sleep));
   world.add(W::ground());
   const std::vector<BodyId> wall = add_wall(world, 20, 10);
-  constexpr int kAccurate = 12;  // fewer, and a wall that does not sleep sways
-  world.run(2, kDt_s, kAccurate);
+  constexpr int kManySubsteps = 12;  // With fewer substeps, a wall that does not sleep sways.
+  world.run(2, kDt_s, kManySubsteps);
   std::vector<Vec3> from;
   for (const BodyId id : wall) from.push_back(world.state(id).X_WB.position);
-  for (std::size_t gone = 4; gone < 14; ++gone) world.remove(wall[gone]);
-  world.run(2, kDt_s, kAccurate);
+  for (std::size_t removed = 4; removed < 14; ++removed) world.remove(wall[removed]);
+  world.run(2, kDt_s, kManySubsteps);
   std::vector<bool> moved;
   for (std::size_t i = 20; i < wall.size(); ++i)
     moved.push_back((world.state(wall[i]).X_WB.position - from[i]).norm() > 0.01);
   return moved;
 }
 
-TEST(Sleep, WakesNineTenthsOfWhatMovesInAWorldThatNeverSleeps) {
-  const std::vector<bool> twin = moved_without_supports(false), here = moved_without_supports(true);
-  std::size_t in_twin = 0, in_both = 0;
-  for (std::size_t i = 0; i < twin.size(); ++i) in_twin += twin[i], in_both += twin[i] && here[i];
-  std::printf("moved in the twin: %zu of %zu, here too: %zu\n", in_twin, twin.size(), in_both);
-  ASSERT_GT(in_twin, 20u);
-  EXPECT_GE(in_both * 10, in_twin * 9);
+TEST(Sleep, WakesNineTenthsOfTheBodiesThatMoveInAWorldWithoutSleep) {
+  const std::vector<bool> without_sleep = moved_without_supports(false),
+                          with_sleep = moved_without_supports(true);
+  std::size_t moved_without_sleep = 0, moved_in_both = 0;
+  for (std::size_t i = 0; i < without_sleep.size(); ++i)
+    moved_without_sleep += without_sleep[i], moved_in_both += without_sleep[i] && with_sleep[i];
+  std::printf("moved in the twin: %zu of %zu, here too: %zu\n", moved_without_sleep,
+              without_sleep.size(), moved_in_both);
+  ASSERT_GT(moved_without_sleep, 20u);
+  EXPECT_GE(moved_in_both * 10, moved_without_sleep * 9);
 }
 
-TEST(Sleep, WhatSleepersTakeUpIsInTheBooks) {
+TEST(Sleep, MomentumAbsorbedBySleepingBodiesIsReported) {
   RigidWorld world;
   world.add(W::ground());
   add_wall(world, 10, 6);
@@ -226,11 +232,11 @@ TEST(Sleep, WhatSleepersTakeUpIsInTheBooks) {
     const Vec3 before = world.momentum();
     const SolveReport report = world.step(kDt_s, kSubsteps);
     const Vec3 residual = world.momentum() - before - report.external_impulse_Ns;
-    EXPECT_LT(residual.norm(), 2e-3) << "step " << i;  // of 1,200 Ns in the ball alone
+    EXPECT_LT(residual.norm(), 2e-3) << "step " << i;  // The ball alone has 1,200 N s.
   }
 }
 
-TEST(Sleep, WhatSitsSolvesOutComesToRestUnderWhatMoves) {
+TEST(Sleep, APausedBodyFallsAsleepUnderAMovingOne) {
   RigidWorld world;
   world.add(W::ground());
   const BodyId plate = world.add(W::box(Vec3(2, 0.2, 2), Vec3(0, 0.1, 0), 100));

@@ -1,4 +1,4 @@
-// Slivers that spin among what slides: the energy that others lose is not theirs to spin up with.
+// Tests that slivers on a sliding slab gain no spin from the energy that friction takes from it.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ class SliverSpin : public testing::TestWithParam<Preset> {};
 INSTANTIATE_TEST_SUITE_P(Presets, SliverSpin, testing::ValuesIn(kPresets),
                          [](const auto& test) { return test.param.name; });
 
-TEST_P(SliverSpin, IsNotFedByWhatASlabUnderItLoses) {
+TEST_P(SliverSpin, GainsNoEnergyFromASlidingSlab) {
   constexpr double kSpin = 300, kSlide_m_s = 8;
   PresetWorld world(GetParam());
   world.add(W::ground());

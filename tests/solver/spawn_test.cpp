@@ -1,4 +1,4 @@
-// Many bodies that appear side by side: which of them are in contact, and that none is missed.
+// Tests of the contacts of many bodies that are added side by side.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -32,10 +32,10 @@ TEST(Spawn, CubesThatMeetAtAnEdgeCollideBeforeTheyOverlap) {
     options.gravity_W = Vec3::Zero();
     options.sleeping = false;
     RigidWorld world(options);
-    const Vec3 side(0.2, 0.2, 0.2), way = Vec3(1, 1, 0) * speed_m_s;
-    const BodyId still = world.add(W::box(side, Vec3(0, 0, 0)));
+    const Vec3 side(0.2, 0.2, 0.2), velocity = Vec3(1, 1, 0) * speed_m_s;
+    const BodyId struck = world.add(W::box(side, Vec3(0, 0, 0)));
     BodyDesc mover = W::box(side, Vec3(-0.2, -0.2, 0));
-    mover.velocity_W = way;
+    mover.velocity_W = velocity;
     world.add(mover);
     double most_m = 0;
     for (int i = 0; i < 120; ++i) {
@@ -44,7 +44,7 @@ TEST(Spawn, CubesThatMeetAtAnEdgeCollideBeforeTheyOverlap) {
         most_m = std::max(most_m, static_cast<double>(depth_m));
     }
     EXPECT_LT(most_m, 1e-3) << speed_m_s;
-    EXPECT_GT(world.state(still).velocity_W.norm(), 0.3 * speed_m_s) << speed_m_s;
+    EXPECT_GT(world.state(struck).velocity_W.norm(), 0.3 * speed_m_s) << speed_m_s;
   }
 }
 

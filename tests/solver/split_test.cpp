@@ -1,5 +1,5 @@
-// How contacts are solved changes the way to the solution and not the solution: colours, mass
-// splitting (Tonge, Benevolenski, Voroshilov 2012), lanes, threads.
+// Tests that the scheme of the contact solver changes the convergence and not the solution:
+// colours, mass splitting (Tonge, Benevolenski, Voroshilov 2012), lanes and threads.
 #include <array>
 #include <cstdio>
 
@@ -19,7 +19,8 @@ constexpr int kColors[] = {0, 8, 64};
 RigidOptions with(int max_colors, int sweeps = 1, int lanes = 0) {
   RigidOptions options;
   options.sleeping = false;
-  options.static_warm_start = 0;  // or there would be nothing to converge to
+  // With a static warm start, the first sweep would be at the solution.
+  options.static_warm_start = 0;
   options.max_colors = max_colors;
   options.sweeps = sweeps;
   options.accelerated = false;
@@ -41,7 +42,7 @@ std::vector<BodyDesc> pyramid(int base) {
   return bodies;
 }
 
-/// Boxes and balls, some of which bounce, over a pit.
+/// Returns boxes and balls over a pit; a third of them bounces.
 std::vector<BodyDesc> rubble(int count, double bounce) {
   std::vector<BodyDesc> bodies = {W::ground()};
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
@@ -64,8 +65,8 @@ void add(const std::vector<BodyDesc>& bodies, RigidWorld& world) {
   for (const BodyDesc& body : bodies) world.add(body);
 }
 
-/// The bodies as they are after so many steps, without friction.
-std::vector<BodyDesc> frozen(std::vector<BodyDesc> bodies, int steps) {
+/// Returns the bodies, without friction, in the state after that number of steps.
+std::vector<BodyDesc> state_after(std::vector<BodyDesc> bodies, int steps) {
   for (BodyDesc& body : bodies) body = W::with_friction(body, 0);
   RigidWorld world(with(64));
   add(bodies, world);
@@ -79,8 +80,9 @@ std::vector<BodyDesc> frozen(std::vector<BodyDesc> bodies, int steps) {
   return bodies;
 }
 
-/// Velocities after one step of so many sweeps.
-std::vector<Vec3> solved(const std::vector<BodyDesc>& bodies, int max_colors, int sweeps) {
+/// Returns the velocities after one step of that number of sweeps.
+std::vector<Vec3> solve_velocities(const std::vector<BodyDesc>& bodies, int max_colors,
+                                   int sweeps) {
   RigidWorld world(with(max_colors, sweeps));
   add(bodies, world);
   world.step(kDt_s, 1);
@@ -99,13 +101,14 @@ double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return std::sqrt(sum);
 }
 
-/// Of the velocities after 1, 4, 16 and so on sweeps to those of very many coloured ones, over that
-/// of the first.
+/// Returns the distances of the velocities after 1, 4, 16 ... sweeps from those after 50,000
+/// coloured sweeps, divided by the first distance.
 std::array<double, 8> residuals(const std::vector<BodyDesc>& bodies, int max_colors) {
-  const std::vector<Vec3> truth = solved(bodies, 64, 50000);
+  const std::vector<Vec3> converged = solve_velocities(bodies, 64, 50000);
   std::array<double, 8> all;
   for (int i = 0; i < 8; ++i)
-    all[static_cast<std::size_t>(i)] = distance(solved(bodies, max_colors, 1 << 2 * i), truth);
+    all[static_cast<std::size_t>(i)] =
+        distance(solve_velocities(bodies, max_colors, 1 << 2 * i), converged);
   const double first = all[0];
   for (double& residual : all) residual /= first;
   return all;
@@ -123,17 +126,17 @@ void expect_convergence(const char* name, const std::vector<BodyDesc>& bodies) {
   }
 }
 
-TEST(Splitting, LeavesTheSpringBetweenBodiesAsItWas) {
+TEST(Splitting, KeepsTheSpringBetweenBodies) {
   const Spring<Wide> whole{splat<Wide>(0.8f), splat<Wide>(0.2f)};
   for (const float parts : {1.f, 2.f, 7.f}) {
     const Spring<Wide> spring = whole.split(splat<Wide>(parts));
     EXPECT_NEAR(spring.mass_scale[0] + spring.impulse_scale[0], 1, 1e-6);
-    // Parts so many times lighter take so many times the share of what the spring gives.
+    // Each part is lighter by the factor `parts`; the spring's share of the impulse grows by it.
     EXPECT_NEAR(parts * spring.mass_scale[0] / spring.impulse_scale[0], 4, 1e-5);
   }
 }
 
-TEST(Splitting, SlowsASpinOnTheSpotAsColouredSweepsDo) {
+TEST(Splitting, SlowsASpinningBoxAsColouredSweepsDo) {
   std::array<double, 2> left_rad_s;
   for (std::size_t i = 0; i < 2; ++i) {
     RigidWorld world(with(i == 0 ? 0 : 64));
@@ -148,17 +151,17 @@ TEST(Splitting, SlowsASpinOnTheSpotAsColouredSweepsDo) {
   EXPECT_NEAR(left_rad_s[0], left_rad_s[1], 0.05 * left_rad_s[1]);
 }
 
-TEST(Splitting, ComesToTheSolutionOfColouredSweepsInAFrozenPile) {
-  expect_convergence("rubble", frozen(rubble(48, 0), 50));
+TEST(Splitting, ConvergesToTheSolutionOfColouredSweepsInAPile) {
+  expect_convergence("rubble", state_after(rubble(48, 0), 50));
 }
 
-TEST(Splitting, ComesToTheSolutionOfColouredSweepsInAStackAndAPyramid) {
-  expect_convergence("stack", frozen(stack(6), 0));
-  expect_convergence("pyramid", frozen(pyramid(6), 0));
+TEST(Splitting, ConvergesToTheSolutionOfColouredSweepsInAStackAndAPyramid) {
+  expect_convergence("stack", state_after(stack(6), 0));
+  expect_convergence("pyramid", state_after(pyramid(6), 0));
 }
 
-// Splitting alone needs four times the substeps, and creeps: see docs/decisions.
-TEST(Splitting, LeavesStacksAndPyramidsStandingGivenSubsteps) {
+// Mass splitting alone needs four times the substeps, and creeps (docs/decisions/022).
+TEST(Splitting, HoldsStacksAndPyramidsWithEnoughSubsteps) {
   for (const int max_colors : kColors) {
     for (const bool tall : {true, false}) {
       RigidWorld world(with(max_colors));
@@ -176,7 +179,7 @@ TEST(Splitting, LeavesStacksAndPyramidsStandingGivenSubsteps) {
   }
 }
 
-/// Enough contacts for threads to share, and bodies with more neighbours than eight colours do for.
+/// Returns enough contacts for several threads, and a body with more neighbours than eight colours.
 std::vector<BodyDesc> cubes_and_a_ball(int side) {
   std::vector<BodyDesc> bodies = {W::ground()};
   for (int i = 0; i < side * side * side; ++i) {
@@ -189,7 +192,7 @@ std::vector<BodyDesc> cubes_and_a_ball(int side) {
   return bodies;
 }
 
-/// More contacts than colours: a plate on 100 posts, which overflows whatever the colours.
+/// Returns a plate on 100 posts: more contacts of one body than colours.
 std::vector<BodyDesc> plate_on_posts() {
   std::vector<BodyDesc> bodies = {W::ground(), W::box(Vec3(10, 0.3, 10), Vec3(0, 1.15, 0))};
   for (int i = 0; i < 100; ++i)
@@ -197,7 +200,7 @@ std::vector<BodyDesc> plate_on_posts() {
   return bodies;
 }
 
-TEST(Splitting, CarriesAPlateThatMoreTouchThanThereAreColours) {
+TEST(Splitting, HoldsAPlateWithMoreContactsThanColours) {
   RigidWorld world(with(64));
   add(plate_on_posts(), world);
   world.run(3, 1.0 / 120, 8);
@@ -218,7 +221,7 @@ std::uint64_t hash_of(const std::vector<BodyDesc>& bodies, int steps, int max_co
   return world.hash();
 }
 
-TEST(Lanes, AreTheSameBitsForTenSeconds) {
+TEST(Lanes, GiveTheSameBitsForTenSeconds) {
   for (const auto& bodies : {rubble(40, 0.5), pyramid(6), plate_on_posts()}) {
     for (const int max_colors : kColors) {
       const std::uint64_t one = hash_of(bodies, 600, max_colors, 1, 1);
@@ -228,7 +231,7 @@ TEST(Lanes, AreTheSameBitsForTenSeconds) {
   }
 }
 
-TEST(Lanes, AreTheSameBitsOnAnyNumberOfThreads) {
+TEST(Lanes, GiveTheSameBitsForAnyNumberOfThreads) {
   const std::vector<BodyDesc> bodies = cubes_and_a_ball(8);
   constexpr int kSteps = 15;
   const std::uint64_t one = hash_of(bodies, kSteps, 64, 1, 1);
@@ -244,7 +247,7 @@ TEST(Lanes, AreTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
-TEST(Lanes, AreAsManyAsAskedForOrFewer) {
+TEST(Lanes, AreAtMostTheRequestedNumber) {
   EXPECT_EQ(lanes_in_use(1), 1);
   EXPECT_EQ(lanes_in_use(4), 4);
   EXPECT_LE(lanes_in_use(8), 8);

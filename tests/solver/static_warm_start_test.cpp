@@ -1,4 +1,4 @@
-// Contacts that come into being under load: breaks at rest, and the start of a scene.
+// Tests of new contacts under load: breaks at rest, bodies put on a stack, the start of a scene.
 #include <algorithm>
 #include <cstdio>
 
@@ -14,14 +14,14 @@ using W = RigidWorld;
 constexpr double kG = 9.81;
 constexpr int kBricks = 10;
 
-RigidOptions awake(double part = 1) {
+RigidOptions awake(double warm_start = 1) {
   RigidOptions options;
   options.sleeping = false;
-  options.static_warm_start = part;
+  options.static_warm_start = warm_start;
   return options;
 }
 
-/// A tower that was dropped by a hair's breadth, so that it knows its loads from sinking.
+/// Adds a tower whose bricks start 1 mm apart, so that its contacts have warm impulses.
 std::vector<BodyId> add_tower(RigidWorld& world) {
   world.add(W::ground());
   std::vector<BodyId> bricks;
@@ -30,7 +30,7 @@ std::vector<BodyId> add_tower(RigidWorld& world) {
   return bricks;
 }
 
-/// Every brick becomes eight, each where it is, all in one step.
+/// Replaces every brick by eight pieces at its place, all in one step.
 void break_all(const std::vector<BodyId>& bricks, RigidWorld& world) {
   std::vector<BodyDesc> pieces;
   for (const BodyId brick : bricks) {
@@ -48,30 +48,31 @@ void break_all(const std::vector<BodyId>& bricks, RigidWorld& world) {
   world.replace(bricks, pieces);
 }
 
-struct Aftermath {
+struct BreakFigures {
   double peak_kinetic_J = 0;
-  double most_gain = -1e30;  ///< Of kinetic and potential energy, over the potential energy.
+  /// Rise of kinetic plus potential energy over the start, relative to the start.
+  double max_gain = -1e30;
 };
 
-/// The second after a tower at rest has broken.
-Aftermath break_at_rest(int substeps, double part) {
-  RigidWorld world(awake(part));
+/// Returns figures of the second after all bricks of a tower at rest broke.
+BreakFigures break_at_rest(int substeps, double warm_start) {
+  RigidWorld world(awake(warm_start));
   const std::vector<BodyId> bricks = add_tower(world);
   world.run(2, 1.0 / 60, substeps);
   const double before_J = world.kinetic_energy() + world.potential_energy(kG);
   break_all(bricks, world);
-  Aftermath after;
+  BreakFigures after;
   for (int i = 0; i < 60; ++i) {
     world.step(1.0 / 60, substeps);
     const double kinetic_J = world.kinetic_energy();
     after.peak_kinetic_J = std::max(after.peak_kinetic_J, kinetic_J);
-    after.most_gain =
-        std::max(after.most_gain, (kinetic_J + world.potential_energy(kG) - before_J) / before_J);
+    after.max_gain =
+        std::max(after.max_gain, (kinetic_J + world.potential_energy(kG) - before_J) / before_J);
   }
   return after;
 }
 
-TEST(StaticWarmStart, ATowerWhoseBricksAllBreakInOneStepHardlyMoves) {
+TEST(StaticWarmStart, ATowerAllOfWhoseBricksBreakInOneStepHardlyMoves) {
   for (const int substeps : {4, 8}) {
     const double cold_J = break_at_rest(substeps, 0).peak_kinetic_J;
     const double warm_J = break_at_rest(substeps, 1).peak_kinetic_J;
@@ -81,11 +82,11 @@ TEST(StaticWarmStart, ATowerWhoseBricksAllBreakInOneStepHardlyMoves) {
   }
 }
 
-TEST(StaticWarmStart, ABreakAtRestGainsNoEnergyAndTwiceTheLoadWouldBeCaught) {
+TEST(StaticWarmStart, ABreakAtRestGainsNoEnergyAndTheTestDetectsTwiceTheLoad) {
   constexpr double kMost = 1e-6;
   for (const int substeps : {4, 8}) {
-    const double gain = break_at_rest(substeps, 1).most_gain;
-    const double twice = break_at_rest(substeps, 2).most_gain;
+    const double gain = break_at_rest(substeps, 1).max_gain;
+    const double twice = break_at_rest(substeps, 2).max_gain;
     std::printf("energy gained by a break, %d substeps: %.2g of it; with twice the load %.2g\n",
                 substeps, gain, twice);
     EXPECT_LT(gain, kMost);
@@ -93,16 +94,16 @@ TEST(StaticWarmStart, ABreakAtRestGainsNoEnergyAndTwiceTheLoadWouldBeCaught) {
   }
 }
 
-/// A tower of bricks that are no cubes, each modelled lying on another of its sides, and what it
-/// moves after a body is put on it off its middle.
-double moved_by_a_load_J(bool turned, double part) {
-  RigidWorld world(awake(part));
+/// Returns the maximum kinetic energy of a tower of flat bricks after a body is put on it
+/// off-centre. If `turned`, the brick's model is rotated, not the brick in the world.
+double peak_energy_of_load_J(bool rotated, double warm_start) {
+  RigidWorld world(awake(warm_start));
   world.add(W::ground());
   for (int i = 0; i < 4; ++i) {
     BodyDesc brick = W::box(Vec3(2, 0.5, 1), Vec3(0, 0.25 + 0.5 * i, 0));
-    if (turned) {
+    if (rotated) {
       brick = W::box(Vec3(0.5, 1, 2), brick.X_WB.position);
-      brick.X_WB.rotation = Quat(0.5, 0.5, 0.5, 0.5);  // x to y, y to z, z to x
+      brick.X_WB.rotation = Quat(0.5, 0.5, 0.5, 0.5);  // Maps x to y, y to z, and z to x.
     }
     world.add(brick);
   }
@@ -116,15 +117,16 @@ double moved_by_a_load_J(bool turned, double part) {
   return most_J;
 }
 
-TEST(StaticWarmStart, BearsALoadOffTheMiddleHoweverBodiesWereTurnedWhenTheyWereModelled) {
-  for (const bool turned : {false, true}) {
-    const double cold_J = moved_by_a_load_J(turned, 0), warm_J = moved_by_a_load_J(turned, 1);
+TEST(StaticWarmStart, BearsAnOffCentreLoadForAnyRotationOfTheModels) {
+  for (const bool rotated : {false, true}) {
+    const double cold_J = peak_energy_of_load_J(rotated, 0),
+                 warm_J = peak_energy_of_load_J(rotated, 1);
     std::printf("a load off the middle of a tower: %.3g J, cold %.3g J\n", warm_J, cold_J);
     EXPECT_LT(warm_J, 0.15 * cold_J);
   }
 }
 
-TEST(StaticWarmStart, BodiesThatFallTogetherDoNotPress) {
+TEST(StaticWarmStart, BodiesThatFallTogetherHaveNoContactImpulse) {
   RigidWorld world(awake());
   const BodyId low = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 10.5, 0)));
   const BodyId high = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 11.5, 0), 8000));
@@ -134,7 +136,7 @@ TEST(StaticWarmStart, BodiesThatFallTogetherDoNotPress) {
   EXPECT_NEAR(world.state(low).velocity_W.y(), -kG / 60, 1e-6);
 }
 
-TEST(StaticWarmStart, ABodyPutOnAStackThatRestsIsBorneAtOnce) {
+TEST(StaticWarmStart, ABodyPutOnAStackAtRestIsSupportedAtOnce) {
   RigidWorld world(awake());
   world.add(W::ground());
   for (int i = 0; i < 5; ++i) world.add(W::box(Vec3(1, 1, 1), Vec3(0, i + 0.5, 0)));

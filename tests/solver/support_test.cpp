@@ -1,5 +1,6 @@
-// Bodies that lose their support fall, at whatever step they fall asleep: a thousand random piles,
-// arches, lintels and frames lose a random support at a random step. Read first: run_case().
+// Tests that bodies fall when they lose their support at any step while falling asleep: a thousand
+// random piles, arches, lintels and frames lose a random support at a random step. Begin reading at
+// run_case().
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,12 +22,12 @@ using W = RigidWorld;
 constexpr double kDt_s = 1.0 / 60;
 constexpr int kSubsteps = 4;
 
-/// A body that moved by less has not fallen. A gap that is no contact is wider.
+/// A body that moved by less has not fallen; gaps between bodies without contact are wider.
 constexpr double kMoved_m = 0.003;
 
-constexpr std::uint32_t kGround = ~0u;  ///< Its tag; that of a body is its index.
+constexpr std::uint32_t kGround = ~0u;  ///< Tag of the ground; the tag of a body is its index.
 
-/// A structure in a world, in which its support can be taken away.
+/// A structure in a world, whose support can be removed.
 class Scene {
  public:
   Scene(const Structure& structure, bool sleep)
@@ -43,7 +44,7 @@ class Scene {
       ids_.push_back(loss_ == Loss::kCut && is_support(i) ? BodyId() : world_.add(bodies_[i]));
     }
     if (loss_ != Loss::kCut) return;
-    // In place of the leg, a joint holds the slab to the world.
+    // A joint to the world holds the slab in place of the leg.
     std::size_t slab = support_;
     while (bodies_[slab].X_WB.position.y() < top_W_.y()) ++slab;
     joint_ =
@@ -81,7 +82,7 @@ class Scene {
   void pause(std::size_t body) {
     if (!is_support(body)) world_.physics().pause(std::span(&ids_[body], 1));
   }
-  /// The points where bodies other than the support touch each other or the ground.
+  /// Returns the points where bodies other than the support touch each other or the ground.
   std::vector<Touch> touches() {
     std::vector<BodyId> all;
     for (std::size_t i = 0; i < size(); ++i)
@@ -103,7 +104,7 @@ class Scene {
   bool is_support(std::size_t body) const { return body == support_; }
   const BodyDesc& desc(std::size_t body) const { return bodies_[body]; }
   BodyState state(std::size_t body) const { return world_.state(ids_[body]); }
-  /// By body; nothing is said of the support.
+  /// Returns the states by body; that of the support is not set.
   std::vector<BodyState> states() const {
     std::vector<BodyState> states(size());
     for (std::size_t i = 0; i < size(); ++i)
@@ -133,27 +134,27 @@ class Scene {
   JointId joint_;
 };
 
-/// Bound on how far any point within half a metre of a body's centre has moved.
-double way_m(const BodyState& from, const BodyState& to) {
+/// Returns a bound on the distance that any point within half a metre of a body's centre has moved.
+double motion_bound_m(const BodyState& from, const BodyState& to) {
   return (to.X_WB.position - from.X_WB.position).norm() +
          0.5 * from.X_WB.rotation.angularDistance(to.X_WB.rotation);
 }
 
-/// Returns true if a line leaves the point on one side, farther away than the margin, and all
+/// Returns true if some line has the point on one side, farther away than the margin, and all
 /// others on the other side.
 bool is_outside(const Vec2& point, const std::vector<Vec2>& others, double margin_m) {
   constexpr int kDirections = 180;
   for (int i = 0; i < kDirections; ++i) {
     const SinCos a = sin_cos(2 * std::numbers::pi * i / kDirections);
-    const auto parted = [&](const Vec2& other) {
+    const auto separated = [&](const Vec2& other) {
       return (point - other).dot(Vec2(a.cos, a.sin)) > margin_m;
     };
-    if (std::ranges::all_of(others, parted)) return true;
+    if (std::ranges::all_of(others, separated)) return true;
   }
   return false;
 }
 
-/// How a body is supported by another, or by the ground.
+/// A contact that supports body `of` by body `by`, or by the ground.
 struct Contact {
   std::uint32_t of, by;
   Vec3 up_W, point_W;
@@ -171,9 +172,9 @@ std::vector<Contact> find_contacts(Scene& scene) {
   return contacts;
 }
 
-/// The body and all that it bears, if they cannot stay whatever the forces: nothing supports them,
-/// or all that does is on one level, contact_forces straight up and leaves their centre of mass
-/// outside. Empty if statics does not say so.
+/// Returns the body and all that it supports, if statics says that they must fall: nothing supports
+/// them, or all of their supports are level and vertical, and their centre of mass is outside of
+/// these. Empty otherwise.
 std::vector<std::uint32_t> find_unsupported(const Scene& scene, std::uint32_t body,
                                             const std::vector<Contact>& contacts) {
   std::vector<std::uint32_t> below = {kGround}, set = {body};
@@ -205,17 +206,20 @@ std::vector<std::uint32_t> find_unsupported(const Scene& scene, std::uint32_t bo
 }
 
 struct Counts {
-  int cases = 0, none_slept = 0, some_slept = 0, all_slept = 0;  ///< By who slept at the loss.
+  /// Cases, by the bodies asleep at the loss.
+  int cases = 0, none_slept = 0, some_slept = 0, all_slept = 0;
   int about_sleep = 0;  ///< Cases with the loss at most six steps from a body's falling asleep.
   std::array<int, kLossNames.size()> losses = {};
-  /// Bodies that cannot stay, with what they bear: without a contact; with their centre of mass
+  /// Bodies that must fall with all that they support: without a contact; with their centre of mass
   /// outside of their supports.
   int without_contact = 0, outside = 0;
-  int moved_in_twin = 0, stayed = 0;  ///< Bodies that fell in the twin; those that did not here.
-  int rested = 0, unsound = 0;        ///< Cases that end asleep; bodies that then fall if woken.
+  /// Bodies that fell in the world without sleep; those of them that stayed here.
+  int moved_without_sleep = 0, stayed = 0;
+  /// Cases that end asleep; bodies that fall when they are woken then.
+  int rested = 0, unsound = 0;
 };
 
-/// The step from which on a body sleeps; at most two seconds.
+/// Returns the step at which a body falls asleep; at most 120, two seconds.
 int step_of_sleep(const Structure& structure, std::size_t body) {
   Scene scene(structure, true);
   int step = 0;
@@ -223,13 +227,13 @@ int step_of_sleep(const Structure& structure, std::size_t body) {
   return step;
 }
 
-/// A structure loses a support. Bodies that cannot stay by statics must move, bodies that fall in a
-/// twin world that never sleeps should, and bodies that sleep in the end must stay when they are
-/// woken.
+/// Removes a support of a structure. Bodies that must fall by statics have to move, nearly all
+/// bodies that fall in a world without sleep have to move, and bodies asleep at the end have to
+/// stay when they are woken.
 void run_case(Kind kind, std::uint64_t seed, Counts& counts) {
   Random random(seed, static_cast<std::uint64_t>(kind));
   const Structure structure = make_structure(kind, random);
-  Scene scene(structure, true), twin(structure, false);
+  Scene scene(structure, true), without_sleep(structure, false);
   const auto some_body = [&] { return random.below(static_cast<std::uint32_t>(scene.size())); };
   int steps = static_cast<int>(random.below(90));
   if (random.below(2) == 0) {
@@ -240,14 +244,14 @@ void run_case(Kind kind, std::uint64_t seed, Counts& counts) {
       ++counts.about_sleep;
     }
   }
-  for (int i = 0; i < steps; ++i) scene.step(), twin.step();
+  for (int i = 0; i < steps; ++i) scene.step(), without_sleep.step();
   ++counts.cases;
   ++counts.losses[static_cast<std::size_t>(structure.loss)];
   ++(scene.count_asleep() == 0 ? counts.none_slept
      : scene.is_all_asleep()   ? counts.all_slept
                                : counts.some_slept);
-  const std::vector<BodyState> from = scene.states(), twin_from = twin.states();
-  scene.lose_support(), twin.lose_support();
+  const std::vector<BodyState> from = scene.states(), without_sleep_from = without_sleep.states();
+  scene.lose_support(), without_sleep.lose_support();
   const std::vector<Contact> contacts = find_contacts(scene);
   std::vector<std::vector<std::uint32_t>> unsupported;
   for (std::uint32_t i = 0; i < scene.size(); ++i) {
@@ -260,19 +264,20 @@ void run_case(Kind kind, std::uint64_t seed, Counts& counts) {
   }
   const std::uint32_t paused = random.below(8) == 0 ? some_body() : kGround;
   for (int i = 0; i < 60; ++i) {
-    if (i < 3 && paused != kGround) scene.pause(paused), twin.pause(paused);
-    scene.step(), twin.step();
+    if (i < 3 && paused != kGround) scene.pause(paused), without_sleep.pause(paused);
+    scene.step(), without_sleep.step();
   }
-  const std::vector<BodyState> to = scene.states(), twin_to = twin.states();
+  const std::vector<BodyState> to = scene.states(), without_sleep_to = without_sleep.states();
   for (const std::vector<std::uint32_t>& set : unsupported) {
-    const auto moved = [&](std::uint32_t i) { return way_m(from[i], to[i]) > kMoved_m; };
+    const auto moved = [&](std::uint32_t i) { return motion_bound_m(from[i], to[i]) > kMoved_m; };
     if (std::ranges::any_of(set, moved)) continue;
     ADD_FAILURE() << "body " << set[0] << " of case " << seed << " hangs after step " << steps;
   }
   for (std::size_t i = 0; i < scene.size(); ++i) {
-    if (scene.is_support(i) || way_m(twin_from[i], twin_to[i]) < 0.1) continue;
-    ++counts.moved_in_twin;
-    counts.stayed += way_m(from[i], to[i]) < kMoved_m;
+    if (scene.is_support(i) || motion_bound_m(without_sleep_from[i], without_sleep_to[i]) < 0.1)
+      continue;
+    ++counts.moved_without_sleep;
+    counts.stayed += motion_bound_m(from[i], to[i]) < kMoved_m;
   }
   for (int i = 0; i < 120 && !scene.is_all_asleep(); ++i) scene.step();
   if (!scene.is_all_asleep()) return;
@@ -283,7 +288,7 @@ void run_case(Kind kind, std::uint64_t seed, Counts& counts) {
   for (std::size_t i = 0; i < scene.size(); ++i) {
     if (scene.is_support(i)) continue;
     const double fall_m = end[i].X_WB.position.y() - scene.state(i).X_WB.position.y();
-    counts.unsound += fall_m > 0.05;  // half a metre, were it without support
+    counts.unsound += fall_m > 0.05;  // A body without support would fall half a metre.
   }
 }
 
@@ -294,7 +299,7 @@ INSTANTIATE_TEST_SUITE_P(Random, LostSupport,
                            return kKindNames[static_cast<std::size_t>(kind.param)];
                          });
 
-TEST_P(LostSupport, BodiesFallAtWhateverStepTheyFallAsleep) {
+TEST_P(LostSupport, MakesBodiesFallAtAnyStepOfFallingAsleep) {
   Counts counts;
   for (int seed = 0; seed < 334; ++seed)
     run_case(GetParam(), static_cast<std::uint64_t>(seed), counts);
@@ -305,18 +310,18 @@ TEST_P(LostSupport, BodiesFallAtWhateverStepTheyFallAsleep) {
     std::printf("  %s: %d", kLossNames[i], counts.losses[i]);
   std::printf("\n  must fall: without contact: %d, centre of mass outside: %d\n",
               counts.without_contact, counts.outside);
-  std::printf("  fell in a world that never sleeps: %d, stayed here: %d\n", counts.moved_in_twin,
-              counts.stayed);
+  std::printf("  fell in a world that never sleeps: %d, stayed here: %d\n",
+              counts.moved_without_sleep, counts.stayed);
   std::printf("  cases that ended asleep: %d, bodies that fell when woken: %d\n", counts.rested,
               counts.unsound);
   EXPECT_GT(counts.none_slept, 50);
   EXPECT_GT(counts.some_slept + counts.all_slept, 50);
   EXPECT_GT(counts.about_sleep, 100);
   EXPECT_GT(counts.without_contact + counts.outside, 200);
-  EXPECT_GT(counts.moved_in_twin, 500);
+  EXPECT_GT(counts.moved_without_sleep, 500);
   EXPECT_GT(counts.rested, 200);
-  // A stone may stand by itself that a whole half of an arch would have drawn along.
-  EXPECT_LE(counts.stayed * 100, counts.moved_in_twin);
+  // A stone that fell with its half of an arch in one world may stand alone in the other.
+  EXPECT_LE(counts.stayed * 100, counts.moved_without_sleep);
   EXPECT_EQ(counts.unsound, 0);
 }
 

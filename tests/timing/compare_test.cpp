@@ -1,4 +1,4 @@
-// Timings beside older ones.
+// Tests of the comparison of timings with older ones.
 #include "bench/timing/compare.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace sunder::bench {
 namespace {
 
-using tests::planted;
+using tests::made_up_timings;
 
-/// What fails, in the order of the verdicts.
+/// Returns scene and check of each failed verdict, in order.
 std::vector<std::string> failed(const Comparison& comparison) {
   std::vector<std::string> all;
   for (const Verdict& verdict : comparison.verdicts) {
@@ -28,12 +28,13 @@ Comparison compared(const Figures& now, const Figures& old, std::optional<double
 }
 
 TEST(CompareTimings, ASlowdownOfATenthFailsAtFivePercentAndNotAtFifteen) {
-  const Figures old = planted("house", 1);
+  const Figures old = made_up_timings("house", 1);
   Figures now = old;
   now["/stages/solve/cpu_mean_ms"] = 1.1;
   EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, stage solve"}));
   EXPECT_TRUE(failed(compared(now, old, 0.15)).empty());
-  EXPECT_TRUE(failed(compared(now, old, std::nullopt)).empty()) << "said, but no threshold to fail";
+  EXPECT_TRUE(failed(compared(now, old, std::nullopt)).empty())
+      << "reported, but without a threshold nothing fails";
   EXPECT_TRUE(failed(compared(old, old, 0.0)).empty());
   EXPECT_TRUE(failed(compared(old, now, 0.0)).empty()) << "faster is fine";
 
@@ -45,7 +46,7 @@ TEST(CompareTimings, ASlowdownOfATenthFailsAtFivePercentAndNotAtFifteen) {
 }
 
 TEST(CompareTimings, ProcessorTimeDecidesWhereBothHaveIt) {
-  const Figures old = planted("house", 1);
+  const Figures old = made_up_timings("house", 1);
   Figures now = old;
   now["/stages/solve/mean_ms"] = 5.0;
   EXPECT_TRUE(failed(compared(now, old, 0.05)).empty()) << "another program had the processor";
@@ -58,35 +59,37 @@ TEST(CompareTimings, ProcessorTimeDecidesWhereBothHaveIt) {
   std::erase_if(older, [](const auto& entry) { return entry.first.ends_with("mean_ms"); });
   now["/stages/load/cpu_p50_ms"] = 5.0;
   EXPECT_EQ(failed(compared(now, older, 0.05)), (std::vector<std::string>{"house, stage load"}))
-      << "of files that have no mean, the median of frames";
+      << "without means, medians of frames are compared";
 }
 
-TEST(CompareTimings, NoiseOfLittleStagesFailsNothing) {
-  Figures old = planted("house", 0.05);
-  Figures now = planted("house", 0.05);
+TEST(CompareTimings, NoiseOfShortStagesDoesNotFail) {
+  Figures old = made_up_timings("house", 0.05);
+  Figures now = made_up_timings("house", 0.05);
   now["/stages/act/cpu_mean_ms"] = 0.19;
-  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty()) << "nearly four times as long, of nothing";
+  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty())
+      << "nearly four times as long, but too short to measure";
   now["/stages/act/cpu_mean_ms"] = 0.25;
   EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, stage act"}))
-      << "no longer little";
+      << "long enough to measure";
 }
 
-TEST(CompareTimings, AStageWithoutATimeOfBeforeFails) {
-  Figures old = planted("house", 1);
+TEST(CompareTimings, AStageWithoutAnOlderTimeFails) {
+  Figures old = made_up_timings("house", 1);
   std::erase_if(old, [](const auto& entry) { return entry.first.starts_with("/stages/load/"); });
-  EXPECT_EQ(failed(compared(planted("house", 1), old, std::nullopt)),
+  EXPECT_EQ(failed(compared(made_up_timings("house", 1), old, std::nullopt)),
             (std::vector<std::string>{"house, stage load"}));
 }
 
-TEST(CompareTimings, ASceneThatTheOlderFileLacksIsSaidAndFails) {
-  const Figures now[] = {planted("house", 1), planted("glass", 1)}, old[] = {planted("house", 1)};
+TEST(CompareTimings, ASceneThatTheOlderFileLacksIsReportedAndFails) {
+  const Figures now[] = {made_up_timings("house", 1), made_up_timings("glass", 1)},
+                old[] = {made_up_timings("house", 1)};
   const Comparison comparison = compare(now, old, "old.json", std::nullopt, false);
   EXPECT_EQ(failed(comparison), (std::vector<std::string>{"glass, same run"}));
   EXPECT_NE(comparison.verdicts.back().text.find("not in old.json"), std::string::npos);
 }
 
-TEST(CompareTimings, OtherRunsAreNotCompared) {
-  const Figures old = planted("house", 1);
+TEST(CompareTimings, RunsWithDifferentSettingsAreNotCompared) {
+  const Figures old = made_up_timings("house", 1);
   Figures draft = old;
   draft["/preset"] = std::string("draft");
   EXPECT_EQ(failed(compared(draft, old, 0.05)), (std::vector<std::string>{"house, same run"}));
@@ -98,9 +101,9 @@ TEST(CompareTimings, OtherRunsAreNotCompared) {
   }
 }
 
-TEST(CompareTimings, TimesOfAnotherStateAreShownAndFailNothingMore) {
-  const Figures old = planted("house", 1);
-  Figures now = planted("house", 2);
+TEST(CompareTimings, TimesOfADifferentStateAreShownAndOnlyTheStateFails) {
+  const Figures old = made_up_timings("house", 1);
+  Figures now = made_up_timings("house", 2);
   now["/state_hash"] = std::string("0123456789abcdee");
   const Comparison comparison = compared(now, old, 0.05);
   EXPECT_EQ(failed(comparison), (std::vector<std::string>{"house, same run"}));
@@ -108,29 +111,31 @@ TEST(CompareTimings, TimesOfAnotherStateAreShownAndFailNothingMore) {
   EXPECT_NE(changes_table(comparison.changes).find("+100.0 %"), std::string::npos);
 }
 
-/// The means of repeats of the solve stage.
+/// Sets the mean times of the repeats of the solve stage.
 void put_repeats(Figures& scene, std::initializer_list<double> means_ms) {
   int i = 0;
   for (const double mean_ms : means_ms)
     scene["/repeat_ms/solve/processor/" + std::to_string(i++)] = mean_ms;
 }
 
-TEST(CompareTimings, WhatRepeatsDoNotShowToBeSlowerFailsNothing) {
-  Figures old = planted("house", 1), now = old;
+TEST(CompareTimings, ASlowdownWithinTheSpreadOfRepeatsDoesNotFail) {
+  Figures old = made_up_timings("house", 1), now = old;
   now["/stages/solve/cpu_mean_ms"] = 1.1;
   put_repeats(old, {1, 1.2, 0.9, 1.1, 1});
   put_repeats(now, {1.1, 0.9, 1.3, 1.15, 1});
-  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty()) << "repeats are farther apart than that";
+  EXPECT_TRUE(failed(compared(now, old, 0.05)).empty())
+      << "the slowdown is within the spread of repeats";
   put_repeats(old, {1, 1.01, 0.99, 1, 1});
   put_repeats(now, {1.1, 1.11, 1.09, 1.1, 1.1});
   EXPECT_EQ(failed(compared(now, old, 0.05)), (std::vector<std::string>{"house, stage solve"}));
-  EXPECT_TRUE(failed(compared(now, old, 0.10)).empty()) << "its low end is less than a tenth";
+  EXPECT_TRUE(failed(compared(now, old, 0.10)).empty())
+      << "the lower end of the interval is less than a tenth";
   const std::string table = changes_table(compared(now, old, 0.05).changes);
   EXPECT_NE(table.find("% (97 % confidence)  slower"), std::string::npos) << table;
 }
 
-TEST(CompareTimings, RepeatsThatWereTimedAtOnceAreComparedInPairs) {
-  Figures old = planted("house", 1), now = old;
+TEST(CompareTimings, RepeatsTimedInTurnsAreComparedInPairs) {
+  Figures old = made_up_timings("house", 1), now = old;
   now["/stages/solve/cpu_mean_ms"] = 1.1;
   put_repeats(old, {1, 2, 3, 4, 5, 6});
   put_repeats(now, {1.1, 2.2, 3.3, 4.4, 5.5, 6.6});

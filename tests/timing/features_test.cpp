@@ -1,4 +1,4 @@
-// What a run models, as its scene says.
+// Tests of the features that a run models.
 #include "scenes/features.h"
 
 #include <set>
@@ -38,7 +38,7 @@ TEST(Features, EachIsOnOrOffOrOffForAReasonInEveryScene) {
   }
 }
 
-TEST(Features, TurnedOffTheyAreOff) {
+TEST(Features, AreOffAfterTurnOff) {
   for (const char* name : {"house", "glass", "wrecking_ball", "steel_hall"}) {
     for (const Feature& feature : features()) {
       Scene scene = load_scene(name);
@@ -67,7 +67,7 @@ TEST(Features, AreOnWhereTheSceneSaysSo) {
                "0]\n"),
             "rolling_resistance")
           .starts_with("off: "))
-      << "nothing is made of it";
+      << "no body has this material";
   EXPECT_EQ(state(load_scene("house", {"realtime", {"limits.dust=0"}}), "dust"),
             "off: dust = 0 in [limits]");
   EXPECT_EQ(state(load_scene("house", {"realtime", {"limits.ageing=500"}}), "ageing"), "on");
@@ -75,7 +75,7 @@ TEST(Features, AreOnWhereTheSceneSaysSo) {
   EXPECT_EQ(find_feature("no such thing"), nullptr);
 }
 
-/// Over the first frames.
+/// Returns the hash of the states of the first 30 frames.
 std::string state_of_run(const Scene& scene) {
   constexpr int kFrames = 30;
   const auto simulation = make_simulation(scene);
@@ -84,8 +84,8 @@ std::string state_of_run(const Scene& scene) {
   return hash.hex(kFrames);
 }
 
-TEST(Features, ThoseThatASceneDoesNotNeedChangeNoBitOfIt) {
-  // Loose things that stand: nothing breaks, crumbles or hangs.
+TEST(Features, UnusedByASceneDoNotChangeItsState) {
+  // Scenes of separate bodies at rest: no breaks, no debris, no joints.
   for (const char* name : {"stack", "brick_wall", "dominoes"}) {
     const Scene scene = load_scene(name, {"draft", {"script.enabled=false"}});
     const std::string as_it_is = state_of_run(scene);
@@ -103,7 +103,7 @@ TEST(Features, ThoseThatASceneDoesNotNeedChangeNoBitOfIt) {
   }
 }
 
-TEST(Features, WithoutSleepNothingSleeps) {
+TEST(Features, WithoutSleepingNoBodySleeps) {
   for (const char* planar : {"", "planar = true\n"}) {
     Scene scene = of(std::string(planar) + "[[ball]]\nposition = [0, 0.5, 0]\n");
     scene.duration_s = 3;

@@ -1,4 +1,4 @@
-// States of single frames, and what is held against them.
+// Tests of stored states of single frames, and the comparison of runs with them.
 #include "bench/timing/frame_states.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ const std::vector<std::uint64_t> kRun = {0x1111222233334444, 0x5555666677778888,
 /// Ten boxes at rest: nothing breaks.
 const GuardedRun kStack = {"boxes", "stack", {}, 3};
 
-TEST(FrameStates, TheFirstFrameThatIsAnotherIsNamed) {
+TEST(FrameStates, TheFirstDifferentFrameIsNamed) {
   const std::string known = frame_digits(kRun);
   EXPECT_EQ(known, "111155559999");
   EXPECT_EQ(first_difference(known, kRun), std::nullopt);
@@ -29,7 +29,7 @@ TEST(FrameStates, TheFirstFrameThatIsAnotherIsNamed) {
   }
 }
 
-TEST(FrameStates, ARunThatEndsBeforeDiffersAndOneThatGoesOnDoesNot) {
+TEST(FrameStates, AShorterRunDiffersAndALongerOneDoesNot) {
   const std::string known = frame_digits(kRun);
   EXPECT_EQ(first_difference(known, std::span(kRun).first(2)), 2);
   std::vector<std::uint64_t> longer = kRun;
@@ -37,7 +37,7 @@ TEST(FrameStates, ARunThatEndsBeforeDiffersAndOneThatGoesOnDoesNot) {
   EXPECT_EQ(first_difference(known, longer), std::nullopt);
 }
 
-TEST(FrameStates, WhatIsAcceptedPassesAtEveryPreset) {
+TEST(FrameStates, AcceptedStatesPassAtEveryPreset) {
   StateHashes book;
   accept_frames(kStack, book);
   EXPECT_EQ(book.size(), 4u);
@@ -48,7 +48,7 @@ TEST(FrameStates, WhatIsAcceptedPassesAtEveryPreset) {
   }
 }
 
-TEST(FrameStates, WhatBreaksBeforeTheScriptBeginsDoesNotEndTheRunBeforeIt) {
+TEST(FrameStates, ABreakBeforeTheScriptDoesNotEndTheRunBeforeTheScript) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "early_break.toml";
   const auto accepted = [&](const std::string& shot) {
     std::ofstream(file) << "[scene]\ndescription = \"A brick bursts, then a ball comes.\"\n"
@@ -78,26 +78,26 @@ TEST(FrameStates, WhatBreaksBeforeTheScriptBeginsDoesNotEndTheRunBeforeIt) {
   std::filesystem::remove(file);
 }
 
-TEST(FrameStates, ADigitThatDiffersFailsAtItsPresetAlone) {
+TEST(FrameStates, ADifferentDigitFailsAtItsPresetOnly) {
   StateHashes book;
   accept_frames(kStack, book);
   char& digit = book.at("frames/boxes/draft")[9];
   digit = digit == '0' ? '1' : '0';
   for (const Verdict& verdict : compare_frames(kStack, book, "hashes.txt", false)) {
-    const bool spoilt = verdict.what == "simulation at draft";
-    EXPECT_EQ(verdict.outcome, spoilt ? Outcome::kFailed : Outcome::kPassed) << verdict.what;
-    if (!spoilt) continue;
+    const bool changed = verdict.what == "simulation at draft";
+    EXPECT_EQ(verdict.outcome, changed ? Outcome::kFailed : Outcome::kPassed) << verdict.what;
+    if (!changed) continue;
     EXPECT_EQ(verdict.text, "differs from frame 2 on");
   }
 }
 
-TEST(FrameStates, ARunWithoutStatesFails) {
+TEST(FrameStates, ARunWithoutStoredStatesFails) {
   const std::vector<Verdict> verdicts = compare_frames(kStack, {}, "hashes.txt", false);
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_EQ(verdicts.front().outcome, Outcome::kFailed);
 }
 
-TEST(FrameStates, WholeRunsAreHeldAgainstWhatBenchKnows) {
+TEST(FrameStates, WholeRunsAreComparedWithTheStatesOfBench) {
   StateHashes book;
   accept_frames(kStack, book);
   book["state/stack/draft/5"] = "0123456789abcdef";
@@ -109,7 +109,7 @@ TEST(FrameStates, WholeRunsAreHeldAgainstWhatBenchKnows) {
   EXPECT_EQ(failed(kStack, true), 1);
   GuardedRun changed = kStack;
   changed.load.set = {"limits.dust=1"};
-  EXPECT_EQ(failed(changed, true), 0) << "bench knows the scene as it is";
+  EXPECT_EQ(failed(changed, true), 0) << "bench has states of the unchanged scene only";
   book["state/stack/draft/five"] = "0123456789abcdef";
   book.erase("state/stack/draft/5");
   EXPECT_THROW(compare_frames(kStack, book, "hashes.txt", true), InputError);

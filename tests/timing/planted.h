@@ -1,4 +1,4 @@
-// Timings as nobody measured them: no clock decides a test.
+// Made-up timings, so that no test depends on a clock.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace sunder::tests {
 
-/// A scene in which every stage takes `ms`, by either clock, and all of them together 7 times that.
-inline Figures planted(const std::string& scene, double ms) {
+/// Returns the timings of a scene in which every stage takes `ms` by either clock, and a frame the
+/// sum of its stages.
+inline Figures made_up_timings(const std::string& scene, double ms) {
   Figures figures = {{"/scene", scene},
                      {"/preset", std::string("realtime")},
                      {"/threads", std::int64_t{1}},

@@ -1,4 +1,4 @@
-// Confidence intervals of ratios hold as often as they say.
+// Tests that confidence intervals of ratios contain the true ratio as often as they claim.
 #include "bench/timing/ratio.h"
 
 #include <cmath>
@@ -29,8 +29,9 @@ TEST(RatioInterval, LeavesOutRatiosAtBothEndsWhereThereAreEnough) {
   EXPECT_NEAR(interval.confidence, 1 - 20 / 512.0, 1e-12);
 }
 
-/// Share of intervals that hold the true ratio, 1.1, of times that have a long tail.
-double share_held(std::size_t runs, bool paired) {
+/// Returns the share of intervals that contain the true ratio, 1.1, for times whose distribution
+/// has a long tail.
+double coverage(std::size_t runs, bool paired) {
   constexpr int kTrials = 2000;
   Random random(7);
   int held = 0;
@@ -47,10 +48,10 @@ double share_held(std::size_t runs, bool paired) {
   return held / double{kTrials};
 }
 
-TEST(RatioInterval, HoldsTheRatioAsOftenAsItSays) {
+TEST(RatioInterval, ContainsTheRatioAsOftenAsItClaims) {
   for (const std::size_t runs : {5u, 8u, 20u, 80u}) {
-    EXPECT_GT(share_held(runs, false), 0.94) << runs;
-    EXPECT_GT(share_held(runs, true), runs == 5 ? 0.92 : 0.94) << runs;
+    EXPECT_GT(coverage(runs, false), 0.94) << runs;
+    EXPECT_GT(coverage(runs, true), runs == 5 ? 0.92 : 0.94) << runs;
   }
 }
 

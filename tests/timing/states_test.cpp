@@ -1,4 +1,4 @@
-// Stored states, and what is held against them.
+// Tests of stored states, and the comparison of runs with them.
 #include "bench/timing/states.h"
 
 #include <gtest/gtest.h>
@@ -11,21 +11,21 @@
 namespace sunder::bench {
 namespace {
 
-using tests::planted;
+using tests::made_up_timings;
 
-const char* const kStored = "fedcba9876543210";  // of planted()
+const char* const kStored = "fedcba9876543210";  // of made_up_timings()
 
-Verdict judged(const Figures& scene, const StateHashes& book) {
+Verdict verdict_of(const Figures& scene, const StateHashes& book) {
   return compare_states(std::span(&scene, 1), book, "hashes.txt").front();
 }
 
-TEST(StateHashes, IsReadAsItIsWritten) {
+TEST(StateHashes, IsReadAsItWasWritten) {
   const StateHashes book = {{"state/house/realtime/200", "0123456789abcdef"}, {"x", kStored}};
   EXPECT_EQ(parse_hashes(format_hashes(book), "hashes.txt"), book);
   EXPECT_TRUE(parse_hashes("# nothing\n\n  \n", "hashes.txt").empty());
 }
 
-TEST(StateHashes, ALineThatIsWrongIsNamed) {
+TEST(StateHashes, AWrongLineIsNamed) {
   const std::string fine = "x fedcba9876543210\n";
   for (const std::string wrong :
        {"y", "y 0123", "y 0123456789abcdeg", "y 0123456789abcdef more", "x 0123456789abcdef"}) {
@@ -40,43 +40,44 @@ TEST(StateHashes, ALineThatIsWrongIsNamed) {
 
 TEST(States, OneBitThatDiffersFails) {
   const StateHashes book = {{"state/house/realtime/200", kStored}};
-  Figures scene = planted("house", 1);
-  EXPECT_EQ(judged(scene, book).outcome, Outcome::kPassed);
+  Figures scene = made_up_timings("house", 1);
+  EXPECT_EQ(verdict_of(scene, book).outcome, Outcome::kPassed);
   scene["/state/hash"] = std::string("fedcba9876543211");
-  const Verdict verdict = judged(scene, book);
+  const Verdict verdict = verdict_of(scene, book);
   EXPECT_EQ(verdict.outcome, Outcome::kFailed);
   for (const char* part : {"state/house/realtime/200", kStored, "fedcba9876543211", "--accept"}) {
     EXPECT_NE(verdict.text.find(part), std::string::npos) << part << ": " << verdict.text;
   }
 }
 
-TEST(States, OneThatIsNotStoredFailsAndOneThatCannotBeIsSkipped) {
-  Figures scene = planted("house", 1);
-  EXPECT_EQ(judged(scene, {}).outcome, Outcome::kFailed);
+TEST(States, AStateThatIsNotStoredFailsAndOneThatCannotBeStoredIsSkipped) {
+  Figures scene = made_up_timings("house", 1);
+  EXPECT_EQ(verdict_of(scene, {}).outcome, Outcome::kFailed);
   const StateHashes other = {{"state/house/draft/200", kStored},
                              {"state/house/realtime/100", kStored}};
-  EXPECT_EQ(judged(scene, other).outcome, Outcome::kFailed) << "of another preset, or shorter";
+  EXPECT_EQ(verdict_of(scene, other).outcome, Outcome::kFailed)
+      << "the states are of another preset or length";
   scene["/set/0"] = std::string("limits.dust=0");
-  EXPECT_EQ(judged(scene, {}).outcome, Outcome::kSkipped);
-  scene = planted("house", 1);
+  EXPECT_EQ(verdict_of(scene, {}).outcome, Outcome::kSkipped);
+  scene = made_up_timings("house", 1);
   scene.erase("/state/hash");
-  EXPECT_EQ(judged(scene, {}).outcome, Outcome::kSkipped);
+  EXPECT_EQ(verdict_of(scene, {}).outcome, Outcome::kSkipped);
 }
 
-TEST(States, RepeatsThatDifferFailWhateverIsStored) {
-  Figures scene = planted("house", 1);
+TEST(States, DifferentRepeatsFailWhateverIsStored) {
+  Figures scene = made_up_timings("house", 1);
   scene["/differs"] = true;
   StateHashes book = {{"state/house/realtime/200", kStored}};
-  EXPECT_EQ(judged(scene, book).outcome, Outcome::kFailed);
+  EXPECT_EQ(verdict_of(scene, book).outcome, Outcome::kFailed);
   EXPECT_THROW(accept_states(std::span(&scene, 1), book), InputError);
 }
 
-TEST(States, WhatIsAcceptedPassesAndTheRestOfTheBookStays) {
+TEST(States, AnAcceptedStatePassesAndOtherEntriesStay) {
   StateHashes book = {{"state/house/realtime/200", "0123456789abcdef"}, {"pixels/house", kStored}};
-  const Figures scene = planted("house", 1);
-  EXPECT_EQ(judged(scene, book).outcome, Outcome::kFailed);
+  const Figures scene = made_up_timings("house", 1);
+  EXPECT_EQ(verdict_of(scene, book).outcome, Outcome::kFailed);
   accept_states(std::span(&scene, 1), book);
-  EXPECT_EQ(judged(scene, book).outcome, Outcome::kPassed);
+  EXPECT_EQ(verdict_of(scene, book).outcome, Outcome::kPassed);
   EXPECT_EQ(book.size(), 2u);
   EXPECT_EQ(book.at("pixels/house"), kStored);
   Figures changed = scene;
@@ -84,7 +85,7 @@ TEST(States, WhatIsAcceptedPassesAndTheRestOfTheBookStays) {
   EXPECT_THROW(accept_states(std::span(&changed, 1), book), InputError);
 }
 
-TEST(Junit, CountsWhatFailedAndWhatWasSkipped) {
+TEST(Junit, CountsFailedAndSkippedChecks) {
   const Verdict verdicts[] = {{"house", "state", Outcome::kFailed, "a < b & \"c\"", 1.5},
                               {"house", "stage solve", Outcome::kPassed, "1 ms", 0.25},
                               {"glass", "state", Outcome::kSkipped, "too short"}};

@@ -1,5 +1,5 @@
-// `sunder bench` as its users see it. What it measures decides nothing here: timings are planted
-// in the files that it wrote.
+// Tests of the command `sunder bench`. Timings in the files that it writes are replaced by made-up
+// ones, so that no test depends on a clock.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -40,7 +40,7 @@ class Bench : public testing::Test {
     return sunder("bench --hashes " + folder_ / "hashes.txt" + " " + arguments);
   }
   std::string file(const std::string& name) const { return folder_ / (name + ".json"); }
-  /// The timings as they are now.
+  /// Writes the timings to the file of this name.
   void write(const std::string& name) const { std::ofstream(file(name)) << timings_.dump(); }
   Json& scene() { return timings_["scenes"][0]; }
 
@@ -48,7 +48,7 @@ class Bench : public testing::Test {
   Json timings_;
 };
 
-TEST_F(Bench, AcceptsAndHoldsTheStateAgainstIt) {
+TEST_F(Bench, AcceptsAStateAndComparesRunsWithIt) {
   const std::string book = scenes::read_text(folder_ / "hashes.txt");
   EXPECT_NE(book.find("state/fall/realtime/12"), std::string::npos) << book;
   const Outcome same = bench("--from " + file("now"));
@@ -58,7 +58,7 @@ TEST_F(Bench, AcceptsAndHoldsTheStateAgainstIt) {
   EXPECT_EQ(longer.exit_code, 0) << longer.err;
 }
 
-TEST_F(Bench, OneBitOfTheStateFails) {
+TEST_F(Bench, OneDifferentBitOfTheStateFails) {
   std::string hash = scene()["state"]["hash"];
   hash.back() = "1032547698badcfe"[std::stoi(hash.substr(hash.size() - 1), nullptr, 16)];
   scene()["state"]["hash"] = hash;
@@ -97,7 +97,7 @@ TEST_F(Bench, ASceneThatTheOlderFileLacksFails) {
   EXPECT_NE(outcome.err.find("fall, same run: not in "), std::string::npos) << outcome.err;
 }
 
-TEST_F(Bench, TakesTheFileOfSimulateAsOlder) {
+TEST_F(Bench, AcceptsAFileOfSimulateAsOlderTimings) {
   ASSERT_EQ(sunder("simulate " + folder_ / "fall.toml" + " --threads 1 --quiet --json " +
                    file("simulated"))
                 .exit_code,
@@ -108,7 +108,7 @@ TEST_F(Bench, TakesTheFileOfSimulateAsOlder) {
   EXPECT_NE(outcome.out.find("processor"), std::string::npos) << outcome.out;
 }
 
-TEST_F(Bench, AnotherProgramIsTimedInTheSameTurnsAndCompared) {
+TEST_F(Bench, AnotherProgramIsTimedInTurnsAndCompared) {
   const std::string fall = folder_ / "fall.toml" + " --repeats 2 --warm-up 0 --against ";
   const Outcome same = bench(fall + SUNDER_PROGRAM);
   EXPECT_EQ(same.exit_code, 0) << same.err;
@@ -125,7 +125,7 @@ TEST_F(Bench, AnotherProgramIsTimedInTheSameTurnsAndCompared) {
   EXPECT_EQ(bench(fall + "/bin/false").exit_code, 1);
 }
 
-TEST_F(Bench, StoppedItKeepsAndReportsWhatWasTimed) {
+TEST_F(Bench, KeepsAndReportsFinishedRepeatsWhenStopped) {
   const auto stopped = [&](const std::string& turns) {
     return sunder("bench " + folder_ / "fall.toml" + turns + " --hashes " + folder_ / "hashes.txt" +
                       " --json " + file("stopped") + " --junit " + folder_ / "stopped.xml",
@@ -165,21 +165,21 @@ TEST_F(Bench, AnotherProgramSharesOneProcessorWithThisOne) {
   EXPECT_EQ(runs, 3);
 }
 
-TEST_F(Bench, TellsWhatFeaturesSaveAndWritesPageAndJunit) {
+TEST_F(Bench, ReportsTheCostOfFeaturesAndWritesPageAndJunit) {
   const Outcome outcome =
       bench(folder_ / "fall.toml" + " --repeats 1 --warm-up 0 --features --json " +
             file("features") + " --page " + folder_ / "x.html" + " --junit " + folder_ / "x.xml");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json json = Json::parse(scenes::read_text(file("features")));
   EXPECT_TRUE(json["scenes"][0]["features"].contains("sleeping"));
-  EXPECT_FALSE(json["scenes"][0]["features"].contains("dust")) << "it has none";
+  EXPECT_FALSE(json["scenes"][0]["features"].contains("dust")) << "the scene has no dust";
   EXPECT_NE(outcome.out.find("sleeping"), std::string::npos);
   EXPECT_EQ(markup_mistake(scenes::read_text(folder_ / "x.html")), "");
   const std::string xml = scenes::read_text(folder_ / "x.xml");
   EXPECT_NE(xml.find("name=\"state\""), std::string::npos) << xml;
 }
 
-TEST_F(Bench, WrongUseExitsWithTwoAndSaysWhatToDo) {
+TEST_F(Bench, WrongUseExitsWithTwoAndAMessage) {
   std::ofstream(folder_ / "bad.txt") << "state/fall/realtime/12 wrong\n";
   std::ofstream(folder_ / "bad.json") << "{\"frames\": 3}";
   std::ofstream(folder_ / "no.json") << "{";

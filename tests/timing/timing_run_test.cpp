@@ -1,4 +1,4 @@
-// Runs and what is made of several of them.
+// Tests of timed runs and of reports on several of them.
 #include <unistd.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 namespace sunder::bench {
 namespace {
 
-using tests::planted;
+using tests::made_up_timings;
 
 /// A ball that falls for a fifth of a second.
 class Fall : public testing::Test {
@@ -66,7 +66,8 @@ TEST_F(Fall, TheStateHashIsOfAFixedNumberOfFrames) {
 }
 
 TEST(MedianOf, TakesTheMedianOfEveryNumber) {
-  std::vector<Figures> runs = {planted("house", 3), planted("house", 1), planted("house", 2)};
+  std::vector<Figures> runs = {made_up_timings("house", 3), made_up_timings("house", 1),
+                               made_up_timings("house", 2)};
   const Figures median = median_of(runs);
   EXPECT_EQ(number_at(median, "/stages/solve/cpu_mean_ms"), 2);
   EXPECT_EQ(number_at(median, "/repeats"), 3);
@@ -76,8 +77,8 @@ TEST(MedianOf, TakesTheMedianOfEveryNumber) {
   EXPECT_EQ(std::get<bool>(median_of(runs).at("/differs")), true);
 }
 
-TEST(MedianOf, AFrameThatIsDisturbedInOneRunChangesNothing) {
-  std::vector<Figures> runs(3, planted("house", 1));
+TEST(MedianOf, AnOutlierInAFrameOfOneRunChangesNothing) {
+  std::vector<Figures> runs(3, made_up_timings("house", 1));
   for (std::size_t i = 0; i < 3; ++i) {
     for (const char* clock : {"stages_ms", "stages_cpu_ms"}) {
       const std::string frame = std::to_string(50 + 40 * i);
@@ -94,9 +95,9 @@ TEST(MedianOf, AFrameThatIsDisturbedInOneRunChangesNothing) {
   EXPECT_DOUBLE_EQ(number_at(median, "/frame/cpu_mean_ms"), (199.0 * kStages + kStages + 2) / 200);
 }
 
-TEST(Document, IsReadAsItIsWritten) {
+TEST(Document, IsReadAsItWasWritten) {
   std::vector<Figures> scenes;
-  for (int i = 0; i < 12; ++i) scenes.push_back(planted("scene " + std::to_string(i), i));
+  for (int i = 0; i < 12; ++i) scenes.push_back(made_up_timings("scene " + std::to_string(i), i));
   const std::string text = format_figures(document_of(scenes));
   EXPECT_EQ(format_figures(document_of(scenes_of(parse_figures(text, "x"), "x"))), text);
   const auto read = scenes_of(parse_figures(text, "x"), "x");
@@ -105,9 +106,9 @@ TEST(Document, IsReadAsItIsWritten) {
   EXPECT_EQ(number_at(read[11], "/stages/solve/p50_ms"), 11);
 }
 
-TEST(Document, OfSimulateIsOneOfOneSceneAndAnyOtherIsRefused) {
+TEST(Document, OfSimulateHasOneSceneAndOtherJsonIsRefused) {
   const auto read =
-      scenes_of(parse_figures(format_figures(planted("house", 1)), "x.json"), "x.json");
+      scenes_of(parse_figures(format_figures(made_up_timings("house", 1)), "x.json"), "x.json");
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(text_at(read[0], "/scene"), "house");
   for (const char* wrong : {"{}", "[]", "{\"scenes\": []}", "{\"scenes\": [{\"frames\": 3}]}",
@@ -121,8 +122,8 @@ TEST(Document, OfSimulateIsOneOfOneSceneAndAnyOtherIsRefused) {
   }
 }
 
-TEST(TimingReport, ShowsWhatAFeatureSavesAndIsWellFormed) {
-  Figures scene = planted("<house>", 1);
+TEST(TimingReport, ShowsTheCostOfAFeatureAndIsWellFormed) {
+  Figures scene = made_up_timings("<house>", 1);
   scene["/features/dust/cpu_mean_ms"] = 6.0;
   scene["/modelled/dust"] = std::string("on");
   ASSERT_EQ(savings_of(scene).size(), 1u);

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A study, and a take's pictures, shared by GNU parallel with a worker killed on purpose, a second
-# pass, and the same in one go: the same files. Exits with 77 (skipped) without GNU parallel.
+# Checks that a study, and the pictures of a recording, shared by GNU parallel with one worker
+# killed and then completed by a second pass, give the files of a single run. Exits with 77
+# (skipped) without GNU parallel.
 #
 #   cluster_test.sh SUNDER ROOT
 set -euo pipefail
@@ -14,8 +15,8 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "FAILED: $*"; exit 1; }
 
-# The program, but for the worker that has $DOOMED among its words: once, as soon as a file $SIGN is
-# there, that one is killed, and so is whoever started it.
+# Runs the program. The worker that has $DOOMED among its arguments is killed once, together with
+# the script `worker`, as soon as a file $SIGN exists.
 cat >worker <<'END'
 #!/usr/bin/env bash
 case " $* " in *" $DOOMED "*) ;; *) exec "$PROGRAM" "$@" ;; esac
@@ -28,7 +29,7 @@ END
 chmod +x worker
 export PROGRAM=$sunder SUNDER=$work/worker PARALLEL="--jobs 2"
 
-# Share 2 of 4 has the runs 2 and 6 of 6; it is killed once it has done the first.
+# Share 2 of 4 has the runs 2 and 6 of 6; its worker is killed after the first.
 printf 'draft draft\nrealtime realtime\nlimit reference accuracy.substeps=16\n' >points
 study=("$root/bench/trade/scenes/pile.toml" --points points --seeds 2 --frames 60)
 shared=("$root/bench/cluster/parallel_trade.sh" 4 "${study[@]}" -o shared)
@@ -37,11 +38,11 @@ shared=("$root/bench/cluster/parallel_trade.sh" 4 "${study[@]}" -o shared)
 export DOOMED=2/4 SIGN='shared/runs/pile/realtime-1.json'
 ! "${shared[@]}" 2>first || fail "the first pass has nothing missing"
 [ -e killed ] || fail "no worker was killed"
-[ "$(grep missing: first)" = "missing: pile/limit-2" ] || fail "what is missing: $(cat first)"
+[ "$(grep missing: first)" = "missing: pile/limit-2" ] || fail "the missing runs are: $(cat first)"
 "${shared[@]}" || fail "the second pass"
 diff -r whole/runs shared/runs || fail "other results than those of one run"
 
-# Seven frames in ranges of two; the worker of the second is killed once it has drawn the first of them.
+# Seven frames in ranges of two; the worker of the second range is killed after its first frame.
 rm killed
 "$sunder" simulate stack --frames 6 --take x.take --quiet
 "$sunder" render x.take -o whole.png/ --size 64x48 --quiet

@@ -1,4 +1,4 @@
-// What two sets of runs differ by, of distributions that are known.
+// Tests of the error between two sets of runs, on samples of known distributions.
 #include "bench/trade/errors.h"
 
 #include <cmath>
@@ -14,15 +14,15 @@ namespace {
 
 constexpr int kSeeds = 8, kTrials = 400;
 
-/// Nearly normal, of mean 0 and deviation 1.
+/// Returns a nearly normal random number of mean 0 and standard deviation 1.
 double draw(Random& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += random.uniform();
   return sum;
 }
 
-/// Runs of so many samples each, which share an offset of their own: seeds differ, as pieces of a
-/// run do.
+/// Returns runs of `samples` samples each. The samples of a run share a random offset, so that
+/// seeds differ as well as samples of one run.
 std::vector<Facts> runs(Random& random, std::size_t samples, double mean, int seeds = kSeeds) {
   std::vector<Facts> all(static_cast<std::size_t>(seeds));
   for (Facts& facts : all) {
@@ -33,11 +33,11 @@ std::vector<Facts> runs(Random& random, std::size_t samples, double mean, int se
   return all;
 }
 
-/// Over noise, on average and how often above 1.
+/// Error over noise: its mean over the trials, and the share of trials in which it is above 1.
 struct Trials {
   double mean = 0, above = 0;
 };
-Trials tried(std::size_t samples, double shift, int seeds = kSeeds) {
+Trials run_trials(std::size_t samples, double shift, int seeds = kSeeds) {
   Random random(7);
   Trials trials;
   for (int i = 0; i < kTrials; ++i) {
@@ -51,7 +51,7 @@ Trials tried(std::size_t samples, double shift, int seeds = kSeeds) {
   return trials;
 }
 
-TEST(Errors, DistanceIsHowFarSamplesMove) {
+TEST(Errors, DistanceIsTheMeanMotionOfSamples) {
   EXPECT_DOUBLE_EQ(distance_between({1}, {4}), 3);
   EXPECT_DOUBLE_EQ(distance_between({0, 1, 2}, {2, 1, 0}), 0);
   EXPECT_DOUBLE_EQ(distance_between({0, 1, 2}, {3, 5, 4}), 3);
@@ -61,32 +61,33 @@ TEST(Errors, DistanceIsHowFarSamplesMove) {
   EXPECT_EQ(distance_between({0, std::nan("")}, {0}), std::numeric_limits<double>::infinity());
 }
 
-TEST(Errors, ThoseOfOneDistributionAreAboutOne) {
+TEST(Errors, OfEqualDistributionsAreAboutOne) {
   for (const std::size_t samples : {std::size_t{1}, std::size_t{30}}) {
-    const Trials same = tried(samples, 0);
+    const Trials same = run_trials(samples, 0);
     std::printf("%zu samples a run: %.2f, above 1 in %.2f\n", samples, same.mean, same.above);
     EXPECT_GT(same.mean, 0.5);
     EXPECT_LT(same.mean, 1.5);
   }
 }
 
-TEST(Errors, GrowWithWhatIsShifted) {
-  const double at_8 = tried(1, 8).mean, at_16 = tried(1, 16).mean, at_32 = tried(1, 32).mean;
+TEST(Errors, GrowWithTheShift) {
+  const double at_8 = run_trials(1, 8).mean, at_16 = run_trials(1, 16).mean,
+               at_32 = run_trials(1, 32).mean;
   EXPECT_GT(at_8, 5);
   EXPECT_NEAR(at_16 / at_8, 2, 0.01);
   EXPECT_NEAR(at_32 / at_16, 2, 0.01);
 }
 
-TEST(Errors, AreSeenBetterWithMoreSeeds) {
-  const double ratio = tried(1, 8, 32).mean / tried(1, 8, 8).mean;
-  EXPECT_NEAR(ratio, 2, 0.4);  // the root of four times as many
+TEST(Errors, GrowWithTheRootOfTheNumberOfSeeds) {
+  const double ratio = run_trials(1, 8, 32).mean / run_trials(1, 8, 8).mean;
+  EXPECT_NEAR(ratio, 2, 0.4);  // square root of four times as many seeds
 }
 
 Facts one(const std::string& name, std::vector<double> samples) {
   return {{{name, std::move(samples)}}, ""};
 }
 
-TEST(Errors, OfWhatDoesNotVaryAreOverTheFloor) {
+TEST(Errors, OfConstantQuantitiesAreOverTheNoiseFloor) {
   const std::vector<Facts> reference(kSeeds, one("penetration p99 m", {1e-6}));
   const std::vector<Facts> point(kSeeds, one("penetration p99 m", {3.001e-3}));
   const std::vector<TradeError> errors = trade_errors(point, reference);
@@ -99,7 +100,7 @@ TEST(Errors, OfWhatDoesNotVaryAreOverTheFloor) {
   EXPECT_DOUBLE_EQ(noise_floor("pieces", far), 1);
 }
 
-TEST(Errors, LeaveOutWhatOneSideHasNoneOf) {
+TEST(Errors, LeaveOutQuantitiesThatOneSideLacks) {
   const std::vector<Facts> reference = {one("exit speed m/s", {10}), one("drift m", {})};
   const std::vector<Facts> point = {one("drift m", {1e-3}), one("pieces", {3})};
   EXPECT_TRUE(trade_errors(point, reference).empty());

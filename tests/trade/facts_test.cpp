@@ -1,4 +1,4 @@
-// What is measured of a run, on frames made by hand.
+// Tests of the quantities measured of a run, on frames made by hand.
 #include "bench/trade/facts.h"
 
 #include <cmath>
@@ -10,9 +10,9 @@
 namespace sunder::bench {
 namespace {
 
-const double kSize = std::sqrt(3.0);  // from its middle to a corner
+const double kSize = std::sqrt(3.0);  // from the cube's centre to a corner
 
-/// A cube around its body's centre; every face of a piece was made by a break.
+/// Returns a cube around its body's centre, with faces made by a break if `interior`.
 std::shared_ptr<const Mesh> cube(bool interior) {
   auto mesh = std::make_shared<Mesh>();
   for (int face = 0; face < 6; ++face) {
@@ -38,8 +38,8 @@ FrameBody body(std::uint64_t key, const Vec3& position_W, const Vec3& velocity_W
   return made;
 }
 
-/// Frames one after another; bodies from key 100 on are pieces.
-class Film {
+/// A sequence of frames. Bodies with keys from 100 on are pieces.
+class FrameSequence {
  public:
   Frame& add(std::vector<FrameBody> bodies) {
     Frame& frame = *frames_.emplace_back(std::make_shared<Frame>());
@@ -68,13 +68,13 @@ class Film {
 
 using Samples = std::vector<double>;
 
-TEST(Facts, OfNoFramesAreNone) { EXPECT_TRUE(Film().facts().samples.empty()); }
+TEST(Facts, OfNoFramesAreEmpty) { EXPECT_TRUE(FrameSequence().facts().samples.empty()); }
 
-TEST(Facts, WhatStandsIsNearWhereItWasAndTheRestRanOut) {
-  Film film;
-  film.add({body(1, {-3, 0, 0}), body(2, {0, 0, 0}), body(3, {3, 0, 0})});
-  film.add({body(1, {-3, -0.1, 0}), body(3, {3, 0, 4}), body(100, {0, 5, -2})}).breaks.resize(1);
-  Facts facts = film.facts();
+TEST(Facts, ABodyNearItsFirstPositionDriftsAndOthersRunOut) {
+  FrameSequence run;
+  run.add({body(1, {-3, 0, 0}), body(2, {0, 0, 0}), body(3, {3, 0, 0})});
+  run.add({body(1, {-3, -0.1, 0}), body(3, {3, 0, 4}), body(100, {0, 5, -2})}).breaks.resize(1);
+  Facts facts = run.facts();
   EXPECT_NEAR(facts.samples["drift m"].at(0), 0.1, 1e-12);
   EXPECT_EQ(facts.samples["drift m"].size(), 1u);
   EXPECT_EQ(facts.samples["drift largest m"], facts.samples["drift m"]);
@@ -84,47 +84,48 @@ TEST(Facts, WhatStandsIsNearWhereItWasAndTheRestRanOut) {
   EXPECT_NEAR(facts.samples["size of pieces m"].at(0), kSize, 1e-6);
 }
 
-TEST(Facts, WhatLosesAPieceStandsThoughItsCentreIsAnother) {
-  Film film;
-  film.add({body(1, {0, 0, 0})});
+TEST(Facts, ABodyThatLosesAPieceIsInPlaceThoughItsCentreMoves) {
+  FrameSequence run;
+  run.add({body(1, {0, 0, 0})});
   FrameBody left = body(1, {0.5, 0, 0});
   left.com_R = Vec3(0.5, 0, 0);
   left.is_static = true;
-  film.add({left});
-  Facts facts = film.facts();
+  run.add({left});
+  Facts facts = run.facts();
   EXPECT_EQ(facts.samples["surface in place share"], Samples{1});
-  EXPECT_EQ(facts.samples.count("drift m"), 0u);  // nothing that moves
+  EXPECT_EQ(facts.samples.count("drift m"), 0u);  // the only body is static
   EXPECT_EQ(facts.samples.count("run-out m"), 0u);
 }
 
-TEST(Facts, AStrikerIsOutAFifthOfASecondAfterItStruck) {
-  Film film;
+TEST(Facts, TheExitSpeedIsThatAFifthOfASecondAfterTheImpact) {
+  FrameSequence run;
   const auto flies = [&](double speed_m_s, std::uint64_t key = 9) {
     return body(key, Vec3::Zero(), Vec3(0, 0, -speed_m_s));
   };
-  film.add({body(1, {9, 0, 0})});
-  film.add({body(1, {9, 0, 0}), flies(20)});
-  film.add({body(1, {9, 0, 0}), flies(19)});  // air, or gravity
-  for (int i = 0; i <= 12; ++i) film.add({body(1, {9, 0, 0}), flies(15 - i * 0.5)});
-  for (int i = 0; i < 5; ++i) film.add({body(1, {9, 0, 0}), flies(1)});
-  Facts facts = film.facts();
+  run.add({body(1, {9, 0, 0})});
+  run.add({body(1, {9, 0, 0}), flies(20)});
+  run.add({body(1, {9, 0, 0}), flies(19)});  // slowed by air or gravity, not by an impact
+  for (int i = 0; i <= 12; ++i) run.add({body(1, {9, 0, 0}), flies(15 - i * 0.5)});
+  for (int i = 0; i < 5; ++i) run.add({body(1, {9, 0, 0}), flies(1)});
+  Facts facts = run.facts();
   EXPECT_EQ(facts.samples["exit speed m/s"], Samples{9});
   EXPECT_EQ(facts.samples["pieces"], Samples{0});
 }
 
-TEST(Facts, WhatIsFastBecauseItBrokeOffStruckNothing) {
-  Film film;
-  film.add({body(1, Vec3::Zero()), body(2, Vec3::Zero(), {6, 0, 0})});
-  film.add({body(1, Vec3::Zero()), body(100, Vec3::Zero(), {50, 0, 0})}).breaks.resize(1);
-  Facts facts = film.facts();
-  EXPECT_EQ(facts.samples["exit speed m/s"], Samples{6});  // of body 2, which was one and is gone
+TEST(Facts, AFastPieceIsNoStriker) {
+  FrameSequence run;
+  run.add({body(1, Vec3::Zero()), body(2, Vec3::Zero(), {6, 0, 0})});
+  run.add({body(1, Vec3::Zero()), body(100, Vec3::Zero(), {50, 0, 0})}).breaks.resize(1);
+  Facts facts = run.facts();
+  EXPECT_EQ(facts.samples["exit speed m/s"],
+            Samples{6});  // of body 2, which was a striker and is gone
   EXPECT_EQ(facts.samples["pieces"], Samples{1});
 }
 
-TEST(Facts, EnergyIsOverMassAndGainedOnlyWhileNothingHappens) {
-  Film film;
+TEST(Facts, EnergyIsPerMassAndGainsCountOnlyWithoutShotsAndBreaks) {
+  FrameSequence run;
   const auto energy = [&](double kinetic_J, std::vector<FrameBody> bodies) -> Frame& {
-    Frame& frame = film.add(std::move(bodies));
+    Frame& frame = run.add(std::move(bodies));
     frame.report.kinetic_J = kinetic_J;
     frame.report.potential_J = 100;
     frame.report.plastic_J = 10;
@@ -135,7 +136,7 @@ TEST(Facts, EnergyIsOverMassAndGainedOnlyWhileNothingHappens) {
   energy(40, {body(1, Vec3::Zero()), body(2, Vec3::Zero())});
   energy(43, {body(1, Vec3::Zero()), body(2, Vec3::Zero())});
   energy(90, {body(1, Vec3::Zero()), body(2, Vec3::Zero())}).breaks.resize(1);
-  Facts facts = film.facts();
+  Facts facts = run.facts();
   EXPECT_NEAR(facts.samples["energy gained J/kg"].at(0), 0.3, 1e-12);
   EXPECT_NEAR(facts.samples["energy after 1/4 J/kg"].at(0), 16, 1e-12);
   EXPECT_NEAR(facts.samples["energy after 1/2 J/kg"].at(0), 15, 1e-12);
@@ -143,42 +144,42 @@ TEST(Facts, EnergyIsOverMassAndGainedOnlyWhileNothingHappens) {
 }
 
 TEST(Facts, PenetrationIsOfAllContactsOfTheRun) {
-  Film film;
+  FrameSequence run;
   for (int i = 0; i < 10; ++i) {
-    Frame& frame = film.add({body(1, Vec3::Zero())});
+    Frame& frame = run.add({body(1, Vec3::Zero())});
     frame.report.penetrations_m.assign(20, 0.001f * static_cast<float>(i));
     frame.report.momentum_residual = i == 5 ? 1e-3 : 1e-6;
   }
-  Frame& last = film.add({body(1, Vec3::Zero())});
+  Frame& last = run.add({body(1, Vec3::Zero())});
   last.report.penetrations_m = {0.5f};
-  Facts facts = film.facts();
+  Facts facts = run.facts();
   EXPECT_NEAR(facts.samples["penetration p99 m"].at(0), 0.009, 1e-6);
   EXPECT_NEAR(facts.samples["penetration worst m"].at(0), 0.5, 1e-6);
   EXPECT_EQ(facts.samples["momentum residual share"], Samples{1e-3});
 }
 
-TEST(Facts, MotionIsLookedAtEveryHalfSecond) {
-  Film film;
+TEST(Facts, MotionIsSampledEveryHalfSecond) {
+  FrameSequence run;
   for (int i = 0; i < 100; ++i) {
     FrameBody spins = body(1, Vec3::Zero(), Vec3(0.01 * i, 0, 0));
     spins.angular_velocity_W = Vec3(0, 0, 2);
     FrameBody wall = body(2, Vec3::Zero());
     wall.is_static = true;
-    film.add({spins, wall});
+    run.add({spins, wall});
   }
-  Facts facts = film.facts();
+  Facts facts = run.facts();
   ASSERT_EQ(facts.samples["speed m/s"].size(), 3u);
   EXPECT_NEAR(facts.samples["speed m/s"][2], 0.9, 1e-12);
   EXPECT_EQ(facts.samples["spin rad/s"], (Samples{2, 2, 2}));
 }
 
-TEST(Facts, NameTheStates) {
-  Film film, other;
-  film.add({body(1, Vec3::Zero())});
+TEST(Facts, HaveAHashOfTheStates) {
+  FrameSequence run, other;
+  run.add({body(1, Vec3::Zero())});
   other.add({body(1, Vec3(1e-9, 0, 0))});
-  EXPECT_EQ(film.facts().state_hash.size(), 16u);
-  EXPECT_EQ(film.facts().state_hash, film.facts().state_hash);
-  EXPECT_NE(film.facts().state_hash, other.facts().state_hash);
+  EXPECT_EQ(run.facts().state_hash.size(), 16u);
+  EXPECT_EQ(run.facts().state_hash, run.facts().state_hash);
+  EXPECT_NE(run.facts().state_hash, other.facts().state_hash);
 }
 
 }  // namespace

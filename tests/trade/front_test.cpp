@@ -1,4 +1,4 @@
-// Which points of a study are worth their cost, on points made by hand.
+// Tests of the Pareto front of a study, on points made by hand.
 #include "bench/trade/front.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 using Front = std::vector<std::size_t>;
 
-TEST(Front, HoldsWhatNothingBeatsCheapestFirst) {
+TEST(Front, HasTheUndominatedPointsCheapestFirst) {
   const std::vector<TradePoint> points = {{"dear, good", false, 8, 1},
                                           {"dear, bad", true, 9, 5},
                                           {"cheap, bad", false, 1, 10},
@@ -21,13 +21,13 @@ TEST(Front, HoldsWhatNothingBeatsCheapestFirst) {
   EXPECT_EQ(pareto_front({}), Front());
 }
 
-TEST(Front, OfEqualPointsHoldsTheFirst) {
+TEST(Front, OfEqualPointsHasTheFirst) {
   const std::vector<TradePoint> points = {{"", false, 2, 3}, {"", false, 2, 3}, {"", false, 1, 4}};
   EXPECT_EQ(pareto_front(points), (Front{2, 0}));
 }
 
-TEST(Front, IsFollowedByStraightLinesInLogarithms) {
-  // From (1, 100) to (16, 1): an error of 10 costs 4 there.
+TEST(Front, IsInterpolatedLinearlyInLogarithms) {
+  // On the line from (1, 100) to (16, 1) an error of 10 has a cost of 4.
   const std::vector<TradePoint> points = {
       {"", false, 1, 100}, {"", false, 16, 1}, {"", true, 6, 10}};
   ASSERT_EQ(pareto_front(points), (Front{0, 2, 1}));
@@ -37,13 +37,13 @@ TEST(Front, IsFollowedByStraightLinesInLogarithms) {
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(over_front(points, i), 1, 1e-12);
 }
 
-TEST(Front, HoldsWhatIsWorseThanTheCheapestAgainstThat) {
+TEST(Front, ComparesPointsWorseThanTheCheapestWithTheCheapest) {
   const std::vector<TradePoint> points = {{"", false, 2, 10}, {"", true, 3, 20}, {"", true, 2, 11}};
   EXPECT_NEAR(over_front(points, 1), 1.5, 1e-12);
   EXPECT_NEAR(over_front(points, 2), 1, 1e-12);
 }
 
-TEST(Front, TakesAnErrorOfNothing) {
+TEST(Front, AcceptsAnErrorOfZero) {
   const std::vector<TradePoint> points = {{"", false, 1, 1}, {"", false, 2, 0}, {"", true, 3, 0}};
   EXPECT_EQ(pareto_front(points), (Front{0, 1}));
   EXPECT_NEAR(over_front(points, 2), 1.5, 1e-12);

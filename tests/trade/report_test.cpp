@@ -1,4 +1,4 @@
-// Reports say what is there, what is missing and what failed, and are well-formed in every case.
+// Tests of reports: they list finished, missing and failed runs, and are well-formed in every case.
 #include "bench/trade/report.h"
 
 #include <cmath>
@@ -26,7 +26,8 @@ Study small_study() {
   return study;
 }
 
-/// A run at a point so far from the limit, at that cost; the comma and the tag are to be survived.
+/// Returns a run at this distance from the limit and of this cost. The name of its quantity has a
+/// comma, quotes and a tag, which reports have to escape.
 Ran ran_of(double distance, double cost_ms) {
   Ran ran;
   ran.result.facts.samples = {{"drift, <b>\"largest\"</b> m", {1 + distance}}, {"pieces", {4}}};
@@ -48,7 +49,7 @@ void write_all(const Folder& folder, const std::vector<StudyRun>& runs) {
   }
 }
 
-/// The records of a CSV file (RFC 4180).
+/// Returns the records of a CSV file (RFC 4180).
 std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
   std::vector<std::vector<std::string>> records(1, std::vector<std::string>(1));
   bool quoted = false;
@@ -110,7 +111,7 @@ TEST(Merge, CostIsTheMedianOverSeedsAndErrorTheWorst) {
   expect_well_formed(trade);
 }
 
-TEST(Merge, GapsAreNamedAndTheRestIsReported) {
+TEST(Merge, MissingRunsAreNamedAndTheRestIsReported) {
   const Folder folder;
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
@@ -129,7 +130,7 @@ TEST(Merge, GapsAreNamedAndTheRestIsReported) {
   expect_well_formed(trade);
 }
 
-TEST(Merge, NothingAtAllIsReportedToo) {
+TEST(Merge, AStudyWithoutAnyRunIsReported) {
   const Folder folder;
   const Trade trade = merge(study_runs(small_study()), folder.path());
   EXPECT_EQ(trade.missing.size(), 8u);
@@ -149,7 +150,7 @@ TEST(Merge, WithoutTheLimitThereAreNoErrors) {
   expect_well_formed(trade);
 }
 
-TEST(Merge, APointThatFailedIsInfinitelyWrong) {
+TEST(Merge, AFailedPointHasAnInfiniteError) {
   const Folder folder;
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
@@ -167,7 +168,7 @@ TEST(Merge, APointThatFailedIsInfinitelyWrong) {
   expect_well_formed(trade);
 }
 
-TEST(Report, CsvHasAColumnAnError) {
+TEST(Report, CsvHasOneColumnPerError) {
   const Folder folder;
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
@@ -182,7 +183,7 @@ TEST(Report, CsvHasAColumnAnError) {
   EXPECT_EQ(records[4][7], "") << "the limit has no error";
 }
 
-TEST(Report, TheTableSaysInWhichUnitsItsFiguresAre) {
+TEST(Report, TheTableHasTheUnitsOfItsFigures) {
   const Folder folder;
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
@@ -192,7 +193,7 @@ TEST(Report, TheTableSaysInWhichUnitsItsFiguresAre) {
   EXPECT_NE(table.find("drift, <b>\"largest\"</b> 0.5 m\n"), std::string::npos) << table;
 }
 
-TEST(Report, JsonHoldsTheSame) {
+TEST(Report, JsonHasTheFiguresOfTheStudy) {
   const Folder folder;
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
@@ -205,7 +206,7 @@ TEST(Report, JsonHoldsTheSame) {
   EXPECT_EQ(std::get<std::int64_t>(figures.at("/runs")), 8);
 }
 
-TEST(Report, ThePageNeedsNothingBesideIt) {
+TEST(Report, ThePageLoadsNoOtherFile) {
   const Folder folder;
   const auto runs = study_runs(small_study());
   write_all(folder, runs);

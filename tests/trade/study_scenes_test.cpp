@@ -1,4 +1,4 @@
-// What the six scenes of the study are chosen for.
+// Tests of the properties that the six scenes of the study are chosen for.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -49,8 +49,8 @@ TEST(StudyScenes, DifferBySeedWhereTheyBreak) {
   }
 }
 
-TEST(StudyScenes, StacksSlideAsFarAsFrictionLetsThem) {
-  const double friction = std::sqrt(0.3 * 0.75);  // of the ground, and of concrete
+TEST(StudyScenes, StacksSlideAsFarAsFrictionAllows) {
+  const double friction = std::sqrt(0.3 * 0.75);  // geometric mean of ground and concrete
   for (const auto& [preset, off] : {std::pair("accurate", 0.01), {"reference", 0.0025}}) {
     const auto source = scenes::make_simulation(scene("stack", preset));
     const FramePtr first = source->next();
@@ -59,9 +59,10 @@ TEST(StudyScenes, StacksSlideAsFarAsFrictionLetsThem) {
     ASSERT_EQ(last->bodies.size(), first->bodies.size());
     for (std::size_t i = 0; i < last->bodies.size(); ++i) {
       const double speed_m_s = first->bodies[i].velocity_W.norm();
-      const double way_m = (last->bodies[i].X_WB.position - first->bodies[i].X_WB.position).norm();
+      const double distance_m =
+          (last->bodies[i].X_WB.position - first->bodies[i].X_WB.position).norm();
       const double expected_m = speed_m_s * speed_m_s / (2 * friction * 9.81);
-      EXPECT_NEAR(way_m / expected_m, 1, off) << preset << ", body " << i;
+      EXPECT_NEAR(distance_m / expected_m, 1, off) << preset << ", body " << i;
     }
   }
 }

@@ -1,4 +1,4 @@
-// A study is the same list of runs to everyone, and a run's file says what was run.
+// Tests of a study, which is the same list of runs for every worker, and of the files of runs.
 #include "bench/trade/study.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::vector<std::string> names_of(const std::vector<StudyRun>& runs) {
   return names;
 }
 
-TEST(Points, TheGridIsOfTwelveWithEveryPresetAndTheLimitBeyondThem) {
+TEST(Points, TheGridHasTwelvePointsWithEveryPresetAndAFinerLimit) {
   const std::vector<StudyPoint> points = default_points();
   ASSERT_EQ(points.size(), 13u);
   EXPECT_TRUE(points.back().is_limit());
@@ -55,7 +55,7 @@ TEST(Points, TheGridIsOfTwelveWithEveryPresetAndTheLimitBeyondThem) {
               1)
         << preset.name;
   }
-  // The limit takes shorter substeps than any point, and sweeps them as often.
+  // Substeps of the limit are at most a quarter as long as those of any point.
   Study given = study(1);
   given.scenes = {"stack"};
   double finest = 1, limit = 1;
@@ -79,7 +79,7 @@ TEST(Points, APresetIsNoCheaperThanTheOneBeforeIt) {
   }
 }
 
-TEST(Points, AFileNamesThemOneALine) {
+TEST(Points, AFileHasOnePointPerLine) {
   const auto points = parse_points(
       "# comment\n\nlimit reference\ncoarse draft  accuracy.substeps=2 ground.friction=0 # more\n",
       "x.txt");
@@ -171,7 +171,7 @@ Ran some_facts() {
   return ran;
 }
 
-TEST(RunFile, GivesBackWhatWasWritten) {
+TEST(RunFile, IsReadAsItWasWritten) {
   const Folder folder;
   const Ran ran = some_facts();
   EXPECT_EQ(read_run(folder.path(), short_run()).missing, "not done");
@@ -186,7 +186,7 @@ TEST(RunFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(stored.ran.time.frames, 3);
 }
 
-TEST(RunFile, HoldsNothingOfTimeThatCounts) {
+TEST(RunFile, DoesNotDependOnTheTimes) {
   const Folder folder;
   const std::string file = folder / "runs/stack/draft-1.json";
   Ran ran = some_facts();
@@ -197,7 +197,7 @@ TEST(RunFile, HoldsNothingOfTimeThatCounts) {
   EXPECT_EQ(scenes::read_text(file), text);
 }
 
-TEST(RunFile, OfAnotherStudyIsToBeDoneAgain) {
+TEST(RunFile, OfAnotherStudyIsDoneAgain) {
   const Folder folder;
   write_run(folder.path(), short_run(), some_facts());
   const auto changed = [&](const std::function<void(StudyRun&)>& change) {
@@ -216,7 +216,7 @@ TEST(RunFile, OfAnotherStudyIsToBeDoneAgain) {
   EXPECT_EQ(changed([](StudyRun& run) { run.set.pop_back(); }), other);
 }
 
-TEST(RunFile, ThatIsCutShortOrWithoutItsTimesIsToBeDoneAgain) {
+TEST(RunFile, TruncatedOrWithoutItsTimesIsDoneAgain) {
   const Folder folder;
   write_run(folder.path(), short_run(), some_facts());
   std::filesystem::remove(folder / "times/stack/draft-1.json");
@@ -226,7 +226,7 @@ TEST(RunFile, ThatIsCutShortOrWithoutItsTimesIsToBeDoneAgain) {
   EXPECT_TRUE(read_run(folder.path(), short_run()).damaged);
 }
 
-TEST(RunFile, KeepsWhyARunFailed) {
+TEST(RunFile, KeepsTheReasonOfAFailure) {
   const Folder folder;
   Ran ran;
   ran.result.failed = "body 3 is not finite in frame 2";
@@ -244,10 +244,10 @@ TEST(CarryOut, GivesTheSameFactsEveryTime) {
   EXPECT_EQ(once.result.facts.state_hash, again.result.facts.state_hash);
 }
 
-/// Frames of a body, the fifth of which goes wrong.
-class Fails final : public FrameSource {
+/// A source of frames of one body, which throws at the fifth frame or gives it a velocity of NaN.
+class FailingSource final : public FrameSource {
  public:
-  explicit Fails(bool throws) : throws_(throws) {}
+  explicit FailingSource(bool throws) : throws_(throws) {}
   FramePtr next() override {
     if (index_ == 4 && throws_) throw std::runtime_error("out of hand");
     auto frame = std::make_shared<Frame>();
@@ -269,14 +269,14 @@ class Fails final : public FrameSource {
   std::uint64_t index_ = 0;
 };
 
-TEST(CarryOut, ARunThatGoesWrongIsAResult) {
-  const Ran thrown = measure([] { return std::make_unique<Fails>(true); }, 10);
+TEST(CarryOut, AFailedRunIsAResult) {
+  const Ran thrown = measure([] { return std::make_unique<FailingSource>(true); }, 10);
   EXPECT_EQ(thrown.result.failed, "out of hand");
   EXPECT_TRUE(thrown.result.facts.samples.empty());
-  const Ran infinite = measure([] { return std::make_unique<Fails>(false); }, 10);
+  const Ran infinite = measure([] { return std::make_unique<FailingSource>(false); }, 10);
   EXPECT_EQ(infinite.result.failed, "body 7 is not finite in frame 4");
   EXPECT_TRUE(infinite.result.facts.samples.empty());
-  EXPECT_EQ(measure([] { return std::make_unique<Fails>(false); }, 3).result.failed, "");
+  EXPECT_EQ(measure([] { return std::make_unique<FailingSource>(false); }, 3).result.failed, "");
   const Ran none = measure([]() -> std::unique_ptr<FrameSource> { throw InputError("no"); }, 3);
   EXPECT_EQ(none.result.failed, "no");
 }

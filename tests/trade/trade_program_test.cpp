@@ -1,5 +1,5 @@
-// `sunder trade` as its users see it: a study that is killed, shared or left with gaps ends with
-// the files of one that was not.
+// Tests of the command `sunder trade`: a study that is killed, shared or completed later has the
+// files of an uninterrupted one.
 #include <fstream>
 #include <map>
 #include <set>
@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 const std::string kPile = SUNDER_ROOT "/bench/trade/scenes/pile.toml";
 
-/// Options of a study of three points and two seeds: six runs a scene.
+/// Returns the options of a study of three points and two seeds: six runs per scene.
 std::string small_study(const Folder& folder) {
   std::ofstream(folder / "points.txt") << "draft draft\nrealtime realtime\nlimit accurate\n";
   return kPile + " --points " + folder / "points.txt" + " --seeds 2 --frames 20 --quiet ";
 }
 
-/// Every file below a folder.
+/// Returns the text of every file below a folder, by relative path.
 std::map<std::string, std::string> files_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
@@ -73,13 +73,13 @@ TEST(Trade, ListsItsRunsAndEveryShare) {
   EXPECT_EQ(shared, std::multiset<std::string>(all.begin(), all.end()));
 }
 
-TEST(Trade, KilledAndResumedItHasTheFilesOfOneThatWasNot) {
+TEST(Trade, KilledAndResumedHasTheFilesOfAnUninterruptedStudy) {
   const Folder folder;
   const std::string study = small_study(folder);
   const std::string whole = folder / "whole", killed = folder / "killed";
   const Outcome outcome = sunder("trade " + study + "-o " + whole);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  // As soon as the first run has its file.
+  // Kills the study as soon as the first run has its file.
   sunder("list --quiet", "\"" SUNDER_PROGRAM "\" trade " + study + "-o " + killed +
                              " & until [ -e " + killed +
                              "/runs/pile/draft-1.json ]; do sleep 0.01; done; "
@@ -119,7 +119,7 @@ TEST(Trade, SharesMakeTheFilesOfTheWholeAndAreMerged) {
   EXPECT_EQ(markup_mistake(scenes::read_text(fs::path(shared) / "pile.svg")), "");
 }
 
-TEST(Trade, WhatIsThereIsNotDoneAgainUnlessItIsOfAnotherStudy) {
+TEST(Trade, AFinishedRunIsNotRepeatedUnlessItIsOfAnotherStudy) {
   const Folder folder;
   const std::string study = small_study(folder) + "-o " + folder / "out ";
   ASSERT_EQ(sunder("trade " + study).exit_code, 0);
@@ -127,7 +127,7 @@ TEST(Trade, WhatIsThereIsNotDoneAgainUnlessItIsOfAnotherStudy) {
   const Outcome again = sunder("trade " + study);
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_EQ(again.err, "");
-  EXPECT_EQ(files_in(folder / "out/times"), times) << "nothing was timed anew";
+  EXPECT_EQ(files_in(folder / "out/times"), times) << "no run was timed again";
 
   fs::resize_file(folder / "out/runs/pile/limit-1.json", 50);
   std::ofstream(folder / "points.txt") << "draft draft\nrealtime realtime ground.friction=0.3\n"

@@ -1,4 +1,5 @@
-// Every truth of a list at every preset, within the bound it reaches; a missed mark is printed.
+// Tests of the truths of a list at every preset: each is within its bound; missed marks are
+// printed.
 #pragma once
 
 #include <cctype>
@@ -14,17 +15,17 @@
 
 namespace sunder::truths {
 
-/// A number of a list's and one of kPresets.
+/// Index of a truth in its list, and of a preset in kPresets.
 using Case = std::tuple<std::size_t, std::size_t>;
 
 inline std::string name_of(const Truth& truth, std::size_t preset) {
   std::string name = "Row" + std::to_string(truth.row);
-  bool word = true;
+  bool starts_word = true;
   for (const char* c = truth.what; *c; ++c) {
-    const bool part = std::isalnum(static_cast<unsigned char>(*c)) != 0 && *c > 0;
-    if (part && word) name += '_';
-    if (part) name += *c;
-    word = !part;
+    const bool is_word_character = std::isalnum(static_cast<unsigned char>(*c)) != 0 && *c > 0;
+    if (is_word_character && starts_word) name += '_';
+    if (is_word_character) name += *c;
+    starts_word = !is_word_character;
   }
   return name + "_" + kPresets[preset].name;
 }
@@ -44,8 +45,8 @@ inline auto all_of(const Truths& truths) {
                           testing::Range(std::size_t{0}, kPresets.size()));
 }
 
-/// ctest has one entry a row (tests/truths/CMakeLists.txt), so that what truths of a row share is
-/// measured once.
+/// Checks the number of rows, for each of which ctest has one entry (tests/truths/CMakeLists.txt),
+/// so that measurements shared by truths of a row are made once.
 inline void expect_rows(const Truths& truths, int rows) { EXPECT_EQ(truths.back().row, rows); }
 
 }  // namespace sunder::truths

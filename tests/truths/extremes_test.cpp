@@ -1,5 +1,5 @@
-// What asks for too much: within the bound that docs/extremes.md has it at, and told of where it
-// goes wrong.
+// Tests of the extremes, scenes that ask for more than the solver is accurate for: each is within
+// its bound in docs/extremes.md, and warns the user where that bound is above the mark.
 #include <string>
 #include <tuple>
 
@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(All, ExtremeAtPreset, all_of(extremes()), name_of_case)
 
 TEST(ExtremeRows, AreAllRun) { expect_rows(extremes(), SUNDER_ROWS); }
 
-TEST(Extremes, AreToldOfWhereTheirBoundIsAboveTheMark) {
+TEST(Extremes, WarnWhereTheirBoundIsAboveTheMark) {
   for (const Truth& extreme : extremes()) {
     if (extreme.is_timing) continue;
     for (std::size_t preset = 0; preset < kPresets.size(); ++preset) {

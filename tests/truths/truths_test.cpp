@@ -1,3 +1,4 @@
+// Tests of the truths, and that their presets are those of scene files.
 #include <string>
 #include <tuple>
 

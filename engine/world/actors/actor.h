@@ -18,19 +18,14 @@
 
 namespace sunder {
 
-/// Force on a convex in the rest frame, and torque about its centroid.
-struct AppliedForce {
-  ConvexSlot convex;
-  Vec3 force_R = Vec3::Zero();
-  Vec3 torque_R = Vec3::Zero();
-};
-
 /// Loads on an actor, and the state of the stress solution for them.
 struct StressState {
-  bool breakable = false;                 ///< AppliedForce can break the actor.
-  bool settled = false;                   ///< The stress solve for the evaluated loads is complete.
-  std::uint64_t since_step = 0;           ///< First step with unevaluated loads, if not settled.
-  std::vector<AppliedForce> mean_forces;  ///< Averaged over time; ascending by convex.
+  bool breakable = false;        ///< Load can break the actor.
+  bool settled = false;          ///< The stress solve for the evaluated loads is complete.
+  std::uint64_t since_step = 0;  ///< First step with unevaluated loads, if not settled.
+  /// Averaged over time; ascending by convex. Torques are about the centroid of the convex, and
+  /// `point_R` is unused, here and in `evaluated_forces`.
+  std::vector<AppliedForce> mean_forces;
   std::vector<AppliedForce> evaluated_forces;
   /// Value of ω² at which ρ ω² r² equals the weakest limit, with r the radius about the centre of
   /// mass.

@@ -48,9 +48,9 @@ void add_as_block(const Structure& structure, std::span<const ConvexSlot> block,
 
 LoadCase make_load_case(const World& world, const Actor& actor, const Quat& rotation_WB,
                         std::vector<AppliedForce>& loads) {
-  for (const AppliedForce& press : actor.stress.mean_forces) {
-    const Vec3& centroid = actor.structure.convex(press.convex)->solid.centroid;
-    loads.push_back({press.convex, press.force_R, centroid, press.torque_R});
+  for (const AppliedForce& force : actor.stress.mean_forces) {
+    const Vec3& centroid = actor.structure.convex(force.convex)->solid.centroid;
+    loads.push_back({force.convex, force.force_N, centroid, force.torque_Nm});
   }
   LoadCase load;
   load.materials = *world.materials;

@@ -1,4 +1,4 @@
-// AppliedForce case of an actor for the breaker. Internal to engine/world.
+// Load case of an actor for the breaker. Internal to engine/world.
 #pragma once
 
 #include <vector>

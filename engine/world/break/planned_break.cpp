@@ -111,13 +111,14 @@ bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak&
 /// at which a bond is overloaded. Overload within the reach of the pattern counts for the pattern.
 void choose_break_mode(const World& world, const Structure& structure, PlannedBreak& planned) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const ImpulsiveStress& blow = planned.stressed.blow;
-  const double overloads = 1 / (blow.worst * blow.worst), energy_J = planned.impact.energy_J;
+  const ImpulsiveStress& impulsive_stress = planned.stressed.impulsive_stress;
+  const double overloads = 1 / (impulsive_stress.worst * impulsive_stress.worst),
+               energy_J = planned.impact.energy_J;
   double by_pattern = kNever;
   double by_stress = breaks_or_bends(planned.stressed.edit) ? overloads : kNever;
   if (planned.edit.changed) {
-    by_pattern = planned.needed_J / (blow.local * energy_J);
-    const double distance_m = (blow.worst_R - planned.command.X_RP.position).norm();
+    by_pattern = planned.needed_J / (impulsive_stress.local * energy_J);
+    const double distance_m = (impulsive_stress.worst_R - planned.command.X_RP.position).norm();
     if (by_pattern < 1 && distance_m < planned.command.radius_m) by_stress = kNever;
   }
   planned.at_bonds = by_stress < by_pattern;
@@ -288,8 +289,9 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         const std::uint64_t bonds = actor.structure.bond_count() + 1;
         const std::uint64_t most_work = std::min(
             kMaxEvaluations, (has_pattern ? kMaxImpactEvaluations : kMaxFrameEvaluations) * bonds);
-        load.blow = {planned.impulses, planned.transmitted_J, planned.command.X_RP.position,
-                     planned.by_pattern ? planned.command.radius_m : 0, most_work};
+        load.impulsive_load = {planned.impulses, planned.transmitted_J,
+                               planned.command.X_RP.position,
+                               planned.by_pattern ? planned.command.radius_m : 0, most_work};
         load.most_work = std::min(most_work, planned.max_bond_evaluations);
         planned.stressed = breaker.stress(actor.structure, load);
       }
@@ -321,15 +323,17 @@ void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) 
   }
   if (!breaks_or_bends(planned.stressed.edit)) actor.stress.memory = planned.stressed.memory;
   if (!std::isfinite(planned.transmitted_J)) return;
-  const ImpulsiveStress& blow = planned.stressed.blow;
+  const ImpulsiveStress& impulsive_stress = planned.stressed.impulsive_stress;
   // The bending energy of a solid of mass M is at most J² / 2M: stress grows with the impulse.
-  if (blow.worst > 0)
-    actor.stress.least_Ns =
-        std::max(actor.stress.least_Ns, kRetryImpulseShare * planned.impulse_Ns / blow.worst);
-  const double bends_J = (1 - blow.local) * energy_J;
+  if (impulsive_stress.worst > 0)
+    actor.stress.least_Ns = std::max(
+        actor.stress.least_Ns, kRetryImpulseShare * planned.impulse_Ns / impulsive_stress.worst);
+  const double bends_J = (1 - impulsive_stress.local) * energy_J;
   actor.stress.least_J =
       std::max(actor.stress.least_J,
-               blow.worst > 0 ? kRetryEnergyShare * bends_J / (blow.worst * blow.worst) : energy_J);
+               impulsive_stress.worst > 0
+                   ? kRetryEnergyShare * bends_J / (impulsive_stress.worst * impulsive_stress.worst)
+                   : energy_J);
 }
 
 void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
@@ -346,7 +350,7 @@ void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   event.plan_ms = planned.plan_ms;
   if (planned.at_bonds) {
     const Pose X_WB = world.physics->state(actor.body).X_WB;
-    event.point_W = X_WB * Vec3(planned.stressed.blow.worst_R - actor.weight.com_R);
+    event.point_W = X_WB * Vec3(planned.stressed.impulsive_stress.worst_R - actor.weight.com_R);
     actor.stress.memory = planned.stressed.memory;
   }
   const bool only_bends = planned.only_bends();

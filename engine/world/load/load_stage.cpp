@@ -20,7 +20,7 @@ constexpr double kAveragingTime_s = 0.1;  // time constant of the forces' mean
 // Change of the load on a convex, relative to the old load with self-weight, from which on the
 // stress is solved again.
 constexpr double kChangeShare = 0.1;
-// AppliedForce relative to the actor's weight below which a change is negligible.
+// Load relative to the actor's weight below which a change is negligible.
 constexpr double kNegligibleShare = 1e-5;
 // Least ρ ω² r² at which spin is evaluated, as a share of the weakest limit. The largest stress is
 // half of ρ ω² r² in a rod, all of it in a ring, and more only where spin bends hollow or curved
@@ -60,16 +60,16 @@ std::vector<AppliedForce> averaged(const World& world, const Actor& actor,
     force.convex = std::min(it != now.end() ? it->force.convex : kPastLastSlot,
                             old != end ? old->convex : kPastLastSlot);
     if (old != end && old->convex == force.convex) {
-      force.force_R += (1 - share) * old->force_R;
-      force.torque_R += (1 - share) * old->torque_R;
+      force.force_N += (1 - share) * old->force_N;
+      force.torque_Nm += (1 - share) * old->torque_Nm;
       ++old;
     }
     for (; it != now.end() && it->force.convex == force.convex; ++it) {
-      force.force_R += share * it->force.force_R;
-      force.torque_R += share * it->force.torque_R;
+      force.force_N += share * it->force.force_N;
+      force.torque_Nm += share * it->force.torque_Nm;
     }
-    if (force.force_R.norm() > 0.1 * negligible ||
-        force.torque_R.norm() > 0.1 * negligible * size_m)
+    if (force.force_N.norm() > 0.1 * negligible ||
+        force.torque_Nm.norm() > 0.1 * negligible * size_m)
       mean.push_back(force);
   }
   return mean;
@@ -89,10 +89,10 @@ bool load_changed(const World& world, const Actor& actor) {
     const double density = world.material(body.material).density_kg_m3;
     const double self_weight = weight_N(world, density * body.solid.volume_m3);
     const double allowed =
-        std::max(negligible, kChangeShare * (self_weight + before.force_R.norm()));
-    if ((after.force_R - before.force_R).norm() > allowed) return true;
+        std::max(negligible, kChangeShare * (self_weight + before.force_N.norm()));
+    if ((after.force_N - before.force_N).norm() > allowed) return true;
     const double arm = body.box.extent().maxCoeff();
-    if ((after.torque_R - before.torque_R).norm() > allowed * arm) return true;
+    if ((after.torque_Nm - before.torque_Nm).norm() > allowed * arm) return true;
   }
   return false;
 }
@@ -125,8 +125,9 @@ std::vector<ActorForce> find_forces(const World& world) {
   };
   const auto add = [&](const Actor& actor, const AppliedForce& load) {
     const Vec3 arm = load.point_R - actor.structure.convex(load.convex)->solid.centroid;
-    all.push_back({world.actors.place_of(actor),
-                   {load.convex, load.force_N, arm.cross(load.force_N) + load.torque_Nm}});
+    all.push_back(
+        {world.actors.place_of(actor),
+         {load.convex, load.force_N, Vec3::Zero(), arm.cross(load.force_N) + load.torque_Nm}});
   };
   for (const ContactImpulse& contact : world.physics->contact_impulses()) {
     const Actor* actor = world.actors.find(contact.body_tag);

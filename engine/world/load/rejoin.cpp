@@ -66,7 +66,7 @@ bool keeps_sides(const Live& joint, std::uint32_t key_a, std::uint32_t key_b,
   return !joint.hinge || (finds(joint.a, joint.hinge->a) && finds(joint.b, joint.hinge->b));
 }
 
-/// AppliedForce case of the merged actor: the loads of both, without those on the convexes of the
+/// Load case of the merged actor: the loads of both, without those on the convexes of the
 /// hinges between the two, which become internal.
 class MergedLoadCase {
  public:
@@ -119,7 +119,7 @@ class MergedLoadCase {
       const Vec3 at = X_AR * actor.structure.convex(force.convex)->solid.centroid;
       ConvexSlot slot = merged_slot_of(actor, force.convex);
       if (slot.none()) slot = nearest(structure_, at);
-      loads_.push_back({slot, X_AR.rotation * force.force_R, at, X_AR.rotation * force.torque_R});
+      loads_.push_back({slot, X_AR.rotation * force.force_N, at, X_AR.rotation * force.torque_Nm});
     }
   }
 

@@ -1,4 +1,4 @@
-#include "fracture/vacd/sweep.h"
+#include "fracture/vacd/sweep_hull.h"
 
 #include <algorithm>
 #include <cmath>

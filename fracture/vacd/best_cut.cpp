@@ -1,4 +1,4 @@
-#include "fracture/vacd/cut.h"
+#include "fracture/vacd/best_cut.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/geometry/approximate_hull.h"
 #include "engine/geometry/convex_polyhedron.h"
-#include "fracture/vacd/sweep.h"
+#include "fracture/vacd/sweep_hull.h"
 
 namespace sunder::fracture {
 namespace {
@@ -21,10 +21,10 @@ constexpr std::size_t kSlices = 9;          // Per direction in the first search
 constexpr std::size_t kNearSlices = 8;
 constexpr int kTilts = 3;
 constexpr double kFirstTilt = 0.25;
-/// CompoundMass of the larger hull in the cost of a cut, which selects the more even of two tight
+/// Weight of the larger hull in the cost of a cut, which selects the more even of two tight
 /// cuts.
 constexpr double kEvenness = 2e-3;
-constexpr double kMiddleEvenness = 0.2;  // CompoundMass for cuts with sides of about equal size.
+constexpr double kMiddleEvenness = 0.2;  // Weight for cuts with sides of about equal size.
 /// Meshes with at least twice as many contours are sliced by every second contour, every third, and
 /// so on: the outlines hardly change.
 constexpr std::size_t kContours = 4096;

@@ -14,7 +14,7 @@ inline constexpr double kCrackShare = 0.1;
 /// nor are the patterns of materials without a limit of stress, which break by crack energy alone.
 /// `radius_m` is the radius of the impact sphere; `thickness_m` the thickness of a plate, 0 for
 /// other convexes.
-void reduce_to_energy(const Material& material, const StructureImpact& hit, double radius_m,
-                      double thickness_m, PatternSpec& pattern);
+void limit_cells_by_energy(const Material& material, const StructureImpact& hit, double radius_m,
+                           double thickness_m, PatternSpec& pattern);
 
 }  // namespace sunder::fracture

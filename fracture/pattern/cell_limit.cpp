@@ -1,4 +1,4 @@
-#include "fracture/pattern/detail.h"
+#include "fracture/pattern/cell_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,8 +54,8 @@ bool halve(PatternSpec& pattern) {
 
 }  // namespace
 
-void reduce_to_energy(const Material& material, const StructureImpact& hit, double radius_m,
-                      double thickness_m, PatternSpec& pattern) {
+void limit_cells_by_energy(const Material& material, const StructureImpact& hit, double radius_m,
+                           double thickness_m, PatternSpec& pattern) {
   if (pattern.kind == Kind::kNone || pattern.kind == Kind::kBrick || pattern.kind == Kind::kFile)
     return;
   if (!(material.toughness_J_m2 > 0) || !(hit.reached_m3 > 0)) return;

@@ -1,4 +1,4 @@
-#include "fracture/stress/parting.h"
+#include "fracture/stress/separate_islands.h"
 
 #include <algorithm>
 #include <utility>
