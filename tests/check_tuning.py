@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails where the rigid solver has a tuned number outside its book, or one without a comment.
+"""Fails where the rigid solver has a tuned number outside its header, or one without a
+comment.
 
 Usage: check_tuning.py [ROOT]. Read first: check_tree().
 """
@@ -7,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-BOOK = "solver/rigid/tuning.h"
+HEADER = "solver/rigid/tuning.h"
 
 # What else may have a name or stand as it is: mathematics, rounding, and room for work.
 MATHEMATICS = {
@@ -37,8 +38,8 @@ MATHEMATICS = {
 }
 
 NAMED = re.compile(r"\bconstexpr\s+(?:float|double)\s+(.*?);", re.DOTALL)
-TUNED = re.compile(r"^(/// [^\n]*\n)?SUNDER_TUNED\s+(?!bool)(?:const\s+)?[\w:]+&?\s+([^;]*);"
-                   r"([^\n]*)", re.MULTILINE)
+TUNED = re.compile(r"^(/// [^\n]*\n)?inline constexpr\s+[\w:]+\s+([^;]*);([^\n]*)",
+                   re.MULTILINE)
 NAME = re.compile(r"\b(k[A-Z]\w*)\b\s*(?:\[\d*\]\s*)?=")
 LITERAL = re.compile(r"(?<![\w.])(\d+\.\d*(?:e[-+]?\d+)?f?|\d+e[-+]?\d+f?)(?![\w.])")
 
@@ -49,25 +50,25 @@ def plain(literal):
     return value == 1e30 or value < 1e-5 or (4 * value == int(4 * value) and value <= 4)
 
 
-def check_book(text):
-    """Messages about the book: no numbers, or a number without a comment."""
+def check_header(text):
+    """Messages about the header: no numbers, or a number without a comment."""
     found, names = [], []
     for before, numbers, behind in TUNED.findall(text):
         names += NAME.findall(numbers)
         if not before and "///<" not in behind:
-            found.append(f"{BOOK}: nothing is said of {', '.join(NAME.findall(numbers))}")
+            found.append(f"{HEADER}: nothing is said of {', '.join(NAME.findall(numbers))}")
     if not names:
-        found.append(f"{BOOK}: no tuned numbers found")
+        found.append(f"{HEADER}: no tuned numbers found")
     return found
 
 
 def check_source(path, text):
-    """Messages about a source: numbers that should be in the book."""
+    """Messages about a source: numbers that should be in the header."""
     allowed = MATHEMATICS.get(path, set())
     code = re.sub(r'//[^\n]*|"[^"\n]*"', "", text)
     named = [name for names in NAMED.findall(code) for name in NAME.findall(names)]
     rest = LITERAL.findall(NAMED.sub("", code))
-    return [f"solver/rigid/{path}: {number} belongs in {BOOK}, or is mathematics or rounding and "
+    return [f"solver/rigid/{path}: {number} belongs in {HEADER}, or is mathematics or rounding and "
             "belongs in the list of check_tuning.py"
             for number in named + [literal for literal in rest if not plain(literal)]
             if number not in allowed]
@@ -76,7 +77,7 @@ def check_source(path, text):
 def check_tree(root):
     """Every message about the tree at `root`."""
     folder = Path(root) / "solver/rigid"
-    messages = check_book((Path(root) / BOOK).read_text(encoding="utf-8"))
+    messages = check_header((Path(root) / HEADER).read_text(encoding="utf-8"))
     for file in sorted(folder.rglob("*")):
         path = file.relative_to(folder).as_posix()
         if file.suffix in (".h", ".cpp") and path != "tuning.h":
@@ -86,7 +87,7 @@ def check_tree(root):
 
 def main():
     messages = check_tree(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent)
-    print("\n".join(messages) or "every tuned number is in the book")
+    print("\n".join(messages) or "every tuned number is in the header")
     return 1 if messages else 0
 
 

@@ -2,23 +2,23 @@
 """check_tuning.py must find each violation, and nothing in what is right."""
 import unittest
 
-from check_tuning import check_book, check_source
+from check_tuning import check_header, check_source
 
-GOOD = "/// Of it.\nSUNDER_TUNED double kPush = 4;\nSUNDER_TUNED float kSlow = 1, kFast = 2;  ///< Both.\n"
+GOOD = "/// Of it.\ninline constexpr double kPush = 4;\ninline constexpr float kSlow = 1, kFast = 2;  ///< Both.\n"
 
 
-class CheckTolerances(unittest.TestCase):
+class CheckTuning(unittest.TestCase):
     def test_good_is_good(self):
-        self.assertEqual(check_book(GOOD), [])
+        self.assertEqual(check_header(GOOD), [])
         self.assertEqual(check_source("a.cpp", "constexpr int kMost = 7;\nx = 0.5 * y + 1e-9; // 0.3"),
                          [])
 
-    def test_the_book_says_what_numbers_are(self):
-        self.assertEqual(len(check_book("")), 1)
-        self.assertIn("kPush", check_book(GOOD + "\nSUNDER_TUNED double kPush = 4;\n")[0])
-        self.assertIn("kPull", check_book(GOOD + "\nSUNDER_TUNED const double& kPull = kPush;\n")[0])
+    def test_the_header_says_what_numbers_are(self):
+        self.assertEqual(len(check_header("")), 1)
+        self.assertIn("kPush", check_header(GOOD + "\ninline constexpr double kPush = 4;\n")[0])
+        self.assertIn("kPull", check_header(GOOD + "\ninline constexpr double kPull = kPush;\n")[0])
 
-    def test_numbers_outside_the_book_are_found(self):
+    def test_numbers_outside_the_header_are_found(self):
         for bad in ("constexpr float kMost = 1;", "inline constexpr double kA = 1, kB = 2;",
                     "x = 0.3f * y;", "if (x > 1e-3) return;"):
             self.assertTrue(check_source("a.cpp", bad), bad)

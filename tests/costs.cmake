@@ -1,7 +1,7 @@
 # Seconds that the slowest tests take on two processors. ctest starts them first, so that none is
 # alone at the end; on a clean checkout it knows no earlier times. Those of more than ten seconds are
 # labelled long, too, and left to test.sh --all.
-set_tests_properties("soak: what is fired at random at random scenes stays finite and keeps its mass"
+set_tests_properties("soak: random scenes under random shots stay finite and keep their mass"
   PROPERTIES COST 120)
 set_tests_properties("extreme 8" PROPERTIES COST 130)
 set_tests_properties("extreme 11" PROPERTIES COST 110)
@@ -30,31 +30,31 @@ set_tests_properties(Extremes.AThousandBodiesInOnePlacePartWithBoundedEnergyAndW
 set_tests_properties(Collapse.ABridgeFallsWithoutItsPier PROPERTIES COST 18 LABELS "truth;long")
 set_tests_properties(MeshCommands.EveryGoodMeshBreaksSoundly
   PROPERTIES COST 17 LABELS "program;long")
-set_tests_properties(Ledger.WhatBreaksInMotionIsPartedWithoutMakingEnergy
+set_tests_properties(Conservation.PiecesOfABreakInMotionSeparateWithoutGainingEnergy
   PROPERTIES COST 12 LABELS "truth;long")
 set_tests_properties(Collapse.AWallThatWasShotThroughHasAHoleAndStands
   PROPERTIES COST 11 LABELS "truth;long")
 set_tests_properties(Golden.EveryPairOfDifferentBaselinesIsToldApart
   PROPERTIES COST 11 LABELS "golden;long")
 set_tests_properties(HardMeshes.LongWorkReportsItsProgressUnlessQuiet PROPERTIES COST 9)
-set_tests_properties(Slivers.OfAPaneUnderFireStayWithinWhatWasPutIn PROPERTIES COST 9)
-set_tests_properties(Ledger.AThousandRandomBreaksInMotionKeepMassAndMomentumAndMakeNoEnergy
+set_tests_properties(Slivers.OfAPaneUnderFireStayFiniteAndGainNoEnergy PROPERTIES COST 9)
+set_tests_properties(Conservation.AThousandRandomBreaksInMotionKeepMassAndMomentumAndGainNoEnergy
   PROPERTIES COST 8)
 set_tests_properties(Collapse.SlabsBreakWhenOtherSlabsStrikeThem PROPERTIES COST 7)
 set_tests_properties(GoldenFaults.ADifferentCameraOrColorsOfTheSceneAreFoundAndNamed
   PROPERTIES COST 7)
-set_tests_properties(Bends.OfFramesThatAreHitKeepMass PROPERTIES COST 7)
+set_tests_properties(Bending.FramesUnderImpactKeepMass PROPERTIES COST 7)
 set_tests_properties(Program.SettingsOfARecordingMayChangeTheViewOnly PROPERTIES COST 7)
 set_tests_properties(Film.ARecordingIsDrawnByEveryCamera PROPERTIES COST 7)
 set_tests_properties(Program.AStoppedCommandKeepsItsOutputsAndLeavesNoOtherFiles PROPERTIES COST 7)
-set_tests_properties(Bends.OfBarsThatAreThrownKeepMassAndMomentaAndMakeNoEnergy PROPERTIES COST 7)
+set_tests_properties(Bending.ThrownBarsKeepMassAndMomentaAndGainNoEnergy PROPERTIES COST 7)
 set_tests_properties(Extremes.AHundredThousandBodiesGiveTheSameBitsForAnyNumberOfThreads
   PROPERTIES COST 7)
-set_tests_properties(Trace.NamesWhatOtherThreadsDoOfALoopAsTheSpanThatItIsIn PROPERTIES COST 7)
+set_tests_properties(Trace.WorkOfOtherThreadsInALoopHasTheNameOfTheEnclosingSpan PROPERTIES COST 7)
 set_tests_properties(Golden.TheReportedCommandsMakeTheSameGoldenAgain PROPERTIES COST 7)
 set_tests_properties(Vacd.OfRealMeshesKeepsItsInvariants PROPERTIES COST 7)
 set_tests_properties(Exports.OfDamagedMeshesHaveEveryEdgeInTwoFaces PROPERTIES COST 7)
-set_tests_properties(Bends.LeaveNothingHangingWhereSomethingGoes PROPERTIES COST 6)
+set_tests_properties(Bending.NoJointStaysAtARemovedBody PROPERTIES COST 6)
 set_tests_properties(Repair.AnySoupEndsInTime PROPERTIES COST 6)
 set_tests_properties(Film.OptionsThatDoNotApplyAreRefusedByName PROPERTIES COST 6)
 set_tests_properties(Rubble.SleepsWithinThreeSecondsOfRestWithoutMorePenetration PROPERTIES COST 5)

@@ -1,4 +1,4 @@
-// Processor time, for bounds on work that hold on a busy machine too.
+// Processor time, for bounds on work that hold on a busy machine, too.
 #pragma once
 
 #include <sys/resource.h>

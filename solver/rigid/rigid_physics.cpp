@@ -35,8 +35,7 @@ class RigidPhysics final : public Physics {
  public:
   explicit RigidPhysics(const RigidOptions& options)
       : options_(options),
-        contact_solver_(
-            {options.sweeps, kUsesConjugateGradients && options.accelerated, options.lanes}),
+        contact_solver_({options.sweeps, options.accelerated, options.lanes}),
         step_(options.gravity_W, 0) {
     SUNDER_CHECK(options.max_colors >= 0 && options.max_colors <= kMaxColors);
     SUNDER_CHECK(options.sweeps > 0 && options.lanes >= 0);

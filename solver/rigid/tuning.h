@@ -1,6 +1,7 @@
 // Every tuned number of the rigid solver, by the rule that uses it; docs/ablation.md has the
-// measured effect of each rule. Constants of mathematics, of rounding and of memory are defined
-// where they are used. tests/check_tuning.py checks that tuned numbers are here and commented.
+// effect of each rule as it was measured. Constants of mathematics, of rounding and of memory are
+// defined where they are used. tests/check_tuning.py checks that tuned numbers are here and
+// commented.
 //
 // A length is a fraction of the inner radius of the smaller shape of a contact, unless its comment
 // says otherwise. Speeds and times are multiples of the speed and time of falling by a body's size
@@ -10,177 +11,163 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Makes a number constant, or a variable in the copy of the solver that ablation_bench changes. A
-/// constant that is a reference to another changes with it.
-#ifdef SUNDER_ABLATION
-#define SUNDER_TUNED inline
-#else
-#define SUNDER_TUNED inline constexpr
-#endif
-
 namespace sunder::solver {
 
 // Softness of contacts (decision 003).
 
 /// Frequency of a contact of one or two points, times the substep. Two sweeps solve contacts of
 /// this stiffness in rubble, where pieces touch in one or two points.
-SUNDER_TUNED double kPointStiffness = 0.25;
+inline constexpr double kPointStiffness = 0.25;
 /// Frequency of a contact of three or more points, times the substep: its points are springs in
 /// parallel, and a stiffer wall has standing waves. Their friction has half of kPointStiffness.
-SUNDER_TUNED double kFaceStiffness = 0.18;
-SUNDER_TUNED double kDampingRatio = 5;  ///< Damping of a contact over critical damping.
+inline constexpr double kFaceStiffness = 0.18;
+inline constexpr double kDampingRatio = 5;  ///< Damping of a contact over critical damping.
 /// Maximum speed at which an overlap is corrected, in speeds of falling by the inner radius.
-SUNDER_TUNED double kMaxPushSpeed = 4;
+inline constexpr double kMaxPushSpeed = 4;
 
 // Stiffening: the stiffness of a contact follows from the mass of its bodies, so boulders would
 // press a pebble into a corner by a fraction of its size. A contact that is compressed by more than
 // kStiffeningDepth becomes stiffer; slowly, since a spring that hardens while an impact compresses
 // it would throw the bodies back (decision 031).
 
-SUNDER_TUNED float kStiffeningDepth =
+inline constexpr float kStiffeningDepth =
     0.01f;  ///< Compression above which a contact becomes stiffer.
 /// Minimum compliance of a contact of a pinched body, as a fraction of its unloaded compliance. The
 /// sweeps do not converge at a lower one.
-SUNDER_TUNED float kMinPinchedCompliance = 0.1f;
+inline constexpr float kMinPinchedCompliance = 0.1f;
 /// Minimum compliance of a contact of any other body: a body on such contacts bounces at 0.3.
-SUNDER_TUNED float kMinCompliance = 0.5f;
+inline constexpr float kMinCompliance = 0.5f;
 /// Factor by which the compliance of a contact changes in a step, at most.
-SUNDER_TUNED float kComplianceStep = 0.97f;
+inline constexpr float kComplianceStep = 0.97f;
 /// Number of loaded manifolds from which a body counts as pinched. A pebble under a column has two,
 /// and would bounce off contacts as stiff as kMinPinchedCompliance.
-SUNDER_TUNED std::uint8_t kPinchedContacts = 3;
+inline constexpr std::uint8_t kPinchedContacts = 3;
 
 // Rest. These speeds are multiples of g·dt, the speed that gravity adds in a step.
 
 /// Speed below which a new contact is at rest, and gets a static warm start (decision 023).
-SUNDER_TUNED double kRestingSpeed = 2;
+inline constexpr double kRestingSpeed = 2;
 /// Closing speed below which a contact does not rebound; multiple of g·h, h being the substep.
-SUNDER_TUNED const double& kReboundSpeed = kRestingSpeed;
+inline constexpr double kReboundSpeed = kRestingSpeed;
 /// Speed of a body above which the energy guard is active (decision 029).
-SUNDER_TUNED double kGuardedSpeed = 2 * kRestingSpeed;
+inline constexpr double kGuardedSpeed = 2 * kRestingSpeed;
 /// Minimum closing speed of an impact that is propagated (decision 036).
-SUNDER_TUNED double kMinImpactSpeed = 2 * kRestingSpeed;
+inline constexpr double kMinImpactSpeed = 2 * kRestingSpeed;
 
 /// Motion of two bodies against each other in a step below which their contact is not tested again.
-SUNDER_TUNED float kStillMotion = 1e-6f;
+inline constexpr float kStillMotion = 1e-6f;
 /// Motion in a step below which the lever arms of a contact are kept; for the check of all bodies,
 /// a fraction of a body's reach.
-SUNDER_TUNED const float& kArmMotion = kStillMotion;
+inline constexpr float kArmMotion = kStillMotion;
 /// Rotation in a step below which a body has no gyroscopic term, rad.
-SUNDER_TUNED const float& kStillAngle = kStillMotion;
+inline constexpr float kStillAngle = kStillMotion;
 
 // The static warm start (decision 023).
 
 /// Maximum kinetic energy that a supported body has left, over that of a substep of free fall.
-SUNDER_TUNED double kMaxResidualEnergy = 0.01;
+inline constexpr double kMaxResidualEnergy = 0.01;
 /// Minimum cosine between the vertical and the normal of a contact that supports weight.
-SUNDER_TUNED float kMinSupportCosine = 0.2f;
+inline constexpr float kMinSupportCosine = 0.2f;
 
 // Contact distances and overlaps (decisions 030, 031).
 
 /// Distance within which shapes have a contact before they touch, besides their motion in the step.
-SUNDER_TUNED float kContactMargin = 0.05f;
+inline constexpr float kContactMargin = 0.05f;
 /// Distance that a box of the broad phase has around its shape; a fat box has three more.
-SUNDER_TUNED const float& kBoxMargin = kContactMargin;
+inline constexpr float kBoxMargin = kContactMargin;
 /// Overlap up to which two bodies that pass each other have no contact in the way.
-SUNDER_TUNED const float& kPassingOverlap = kContactMargin;
+inline constexpr float kPassingOverlap = kContactMargin;
 /// Distance that a kept contact point may slide (decision 033).
-SUNDER_TUNED const float& kKeptPointSlide = kContactMargin;
+inline constexpr float kKeptPointSlide = kContactMargin;
 /// Maximum gap or overlap of a new contact at rest (decision 023).
-SUNDER_TUNED const float& kRestingDistance = kContactMargin;
+inline constexpr float kRestingDistance = kContactMargin;
 
 /// Overlap of two faces up to which they touch without area (decision 030).
-SUNDER_TUNED float kEdgeOverlap = 1e-3f;
+inline constexpr float kEdgeOverlap = 1e-3f;
 /// Distance from a facet's sides within which a contact point is on the facet.
-SUNDER_TUNED const float& kFacetTolerance = kEdgeOverlap;
+inline constexpr float kFacetTolerance = kEdgeOverlap;
 /// Gap at which a ball that is cast counts as touching.
-SUNDER_TUNED const float& kBallImpactGap = kEdgeOverlap;
+inline constexpr float kBallImpactGap = kEdgeOverlap;
 /// Gap that the static warm start takes for none (decision 023).
-SUNDER_TUNED const float& kClosedGap = kEdgeOverlap;
+inline constexpr float kClosedGap = kEdgeOverlap;
 
 /// Distance from the deepest point within which points of a contact count as deep (decision 031).
-SUNDER_TUNED float kDepthTolerance = 0.02f;
+inline constexpr float kDepthTolerance = 0.02f;
 /// Half of this is the separation by which an axis must be better than a preferred one.
-SUNDER_TUNED const float& kAxisPreference = kDepthTolerance;
-SUNDER_TUNED float kMaxEdgeCosine =
+inline constexpr float kAxisPreference = kDepthTolerance;
+inline constexpr float kMaxEdgeCosine =
     0.5f;  ///< Maximum cosine between two faces that touch without area.
 /// Minimum inner radius of a hull as a tolerance, as a fraction of its reach.
-SUNDER_TUNED float kMinInnerRadius = 0.02f;
+inline constexpr float kMinInnerRadius = 0.02f;
 
 /// Overlap from which a contact is deep (decision 020).
-SUNDER_TUNED float kDeepOverlap = 0.1f;
+inline constexpr float kDeepOverlap = 0.1f;
 /// Overlap of two balls of the inner radii from which shapes of a dense cluster may be skipped; a
 /// fraction of the sum of the radii.
-SUNDER_TUNED const float& kDenseOverlap = kDeepOverlap;
+inline constexpr float kDenseOverlap = kDeepOverlap;
 /// Maximum distance between the rest separation of a contact and touch (decision 023).
-SUNDER_TUNED const float& kMaxRestOffset = kDeepOverlap;
+inline constexpr float kMaxRestOffset = kDeepOverlap;
 
 // Manifolds and points that are kept (decision 033), and casting.
 
 /// Motion since a manifold was built, from which the manifold is built again; or a rotation that
 /// moves a point at three inner radii by this distance.
-SUNDER_TUNED float kMaxReuseMotion = 0.03f;
+inline constexpr float kMaxReuseMotion = 0.03f;
 /// Motion in a step above which a ball is cast: its normal depends on where it touches.
-SUNDER_TUNED const float& kBallCastingMotion = kMaxReuseMotion;
+inline constexpr float kBallCastingMotion = kMaxReuseMotion;
 /// Motion in a step above which a pair is cast (continuous collision).
-SUNDER_TUNED float kCastingMotion = 0.5f;
+inline constexpr float kCastingMotion = 0.5f;
 /// Distance between contact points of two steps above which they are different points.
-SUNDER_TUNED const float& kPointMatchDistance = kCastingMotion;
+inline constexpr float kPointMatchDistance = kCastingMotion;
 /// Motion in a step above which no old contact points are kept.
-SUNDER_TUNED float kKeptPointMotion = 0.5f * kCastingMotion;
+inline constexpr float kKeptPointMotion = 0.5f * kCastingMotion;
 /// Closing in a step below which a contact is no impact (decision 036).
-SUNDER_TUNED float kImpactMotion = 0.5f * kCastingMotion;
+inline constexpr float kImpactMotion = 0.5f * kCastingMotion;
 
 // Dense clusters: many overlapping shapes (decision 020).
 
 /// Number of neighbours of a shape above which only some of its pairs are tested.
-SUNDER_TUNED std::size_t kMaxNeighbours = 24;
+inline constexpr std::size_t kMaxNeighbours = 24;
 /// Number of deep contacts of a body above which only some of them are kept.
-SUNDER_TUNED const std::size_t& kMaxDeepContacts = kMaxNeighbours;
-
-// Switches of ablation_bench for rules that no number turns off: the energy guard (029),
-// restitution (035), conjugate gradients (028), kept points (033), casting.
-
-SUNDER_TUNED bool kGuardsEnergy = true, kAppliesRestitution = true, kUsesConjugateGradients = true,
-                  kKeepsPoints = true, kCastsPairs = true;
+inline constexpr std::size_t kMaxDeepContacts = kMaxNeighbours;
 
 // Sleep (decision 016). Rest is decided by drift and not by speed alone: a light piece pinched by
 // heavy ones vibrates in place at centimetres a second, and would keep its neighbours awake. A
 // speed below that of gravity in a step cannot be measured, nor tipping in a few steps.
 
 /// Maximum drift of a body during the time of rest, as a fraction of its reach.
-SUNDER_TUNED double kMaxRestDrift = 0.005;
+inline constexpr double kMaxRestDrift = 0.005;
 /// Weight that the lost contacts of a body at rest may have carried, as a fraction of its weight: a
 /// smaller one moves the body by no more than kMaxRestDrift.
-SUNDER_TUNED const double& kMaxLostSupport = kMaxRestDrift;
-SUNDER_TUNED double kMaxRestSpeed =
+inline constexpr double kMaxLostSupport = kMaxRestDrift;
+inline constexpr double kMaxRestSpeed =
     0.25;  ///< Maximum speed of a body at rest, in speeds of falling.
 /// Closing speed from which a contact wakes a sleeping body, in speeds of falling.
-SUNDER_TUNED double kHitSpeed = kMaxRestSpeed / 3;
+inline constexpr double kHitSpeed = kMaxRestSpeed / 3;
 /// Minimum time of rest before sleep, in times of falling: half a second for a piece of 35 cm.
-SUNDER_TUNED double kMinRestTime = 2.6;
-SUNDER_TUNED double kMinRestSteps = 20;  ///< Minimum time of rest before sleep, in steps.
+inline constexpr double kMinRestTime = 2.6;
+inline constexpr double kMinRestSteps = 20;  ///< Minimum time of rest before sleep, in steps.
 /// Change of the contact forces on a sleeping body that wakes it, as a fraction of its weight. In
 /// heaps whose stones press each other with many times their weight, a stone that wakes changes
 /// those forces by a fifth, and with a smaller value wakes never end.
-SUNDER_TUNED float kWakingForceChange = 0.3f;
+inline constexpr float kWakingForceChange = 0.3f;
 /// Change of a contact's force that does not count, as a fraction of the force.
-SUNDER_TUNED const float& kIgnoredForceChange = kWakingForceChange;
+inline constexpr float kIgnoredForceChange = kWakingForceChange;
 /// Minimum force, as a fraction of a body's weight, with which another body supports it.
-SUNDER_TUNED const float& kSupportingForce = kWakingForceChange;
+inline constexpr float kSupportingForce = kWakingForceChange;
 
 // Joints (decision 026).
 
 /// Fraction of a joint's error that a substep corrects.
-SUNDER_TUNED const double& kJointCorrection = kPointStiffness;
+inline constexpr double kJointCorrection = kPointStiffness;
 /// Maximum speed at which an error of a joint is corrected, in speeds of falling by the reach.
-SUNDER_TUNED const double& kMaxJointPushSpeed = kMaxPushSpeed;
+inline constexpr double kMaxJointPushSpeed = kMaxPushSpeed;
 /// Stiffness of a tension, h²·K/I, above which damping grows faster than the tension: a chain that
 /// bends over many links is damped less than one that bends at each link.
-SUNDER_TUNED double kMaxTensionStiffness = 24;
+inline constexpr double kMaxTensionStiffness = 24;
 
 // Free rotation.
 
-SUNDER_TUNED double kMaxMidpointAngle = 0.1;  ///< Maximum rotation in one midpoint step, rad.
+inline constexpr double kMaxMidpointAngle = 0.1;  ///< Maximum rotation in one midpoint step, rad.
 
 }  // namespace sunder::solver

@@ -1,13 +1,13 @@
-# Installs the build into an empty prefix, then configures, builds and runs the consumer there, with
-# nothing that knows where the checkout is. Called by ctest with ROOT (the checkout), BUILD (the
-# build directory) and COMPILER.
+# Installs the build into an empty prefix, then configures, builds and runs the consumer there,
+# without the path of the checkout. Called by ctest with ROOT (the checkout), BUILD (the build
+# directory) and COMPILER.
 function(run)
   list(JOIN ARGN " " command)
   message(STATUS "${command}")
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# Outside the checkout, whose path the prefix would have otherwise.
+# The work directory is outside the checkout, whose path would otherwise be part of the prefix.
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE work OUTPUT_STRIP_TRAILING_WHITESPACE
   COMMAND_ERROR_IS_FATAL ANY)
 set(prefix ${work}/prefix)
@@ -24,7 +24,7 @@ if(count GREATER 20)
   message(FATAL_ERROR "${count} headers are installed; the public interface has 20")
 endif()
 
-# What names the checkout would open it, or fail without it.
+# Installed files that contain the path of the checkout would depend on it.
 execute_process(COMMAND grep -rlF ${ROOT} ${prefix}/include ${prefix}/lib ${prefix}/share
   ${work}/build/consumer OUTPUT_VARIABLE naming RESULT_VARIABLE found)
 if(NOT found EQUAL 1)

@@ -1,6 +1,5 @@
-// A program that uses the installed library, as a game or a tool would: a scene made in code, one
-// read from a text, what a run comes to, a take, a picture. Exits with 1 where something is not as
-// it should be.
+// A program that uses the installed library, as a game or a tool would: scenes made in code and
+// from text, statistics, a recording, an image. Its exit code is 1 if a check fails.
 #include <sunder/sunder.h>
 
 #include <algorithm>
@@ -22,7 +21,7 @@ void expect(bool right, const char* what) {
   ++wrong;
 }
 
-/// A steel box falls from 10 m for a second on a small planet, and rests on the ground in the end.
+/// Simulates a steel box that falls from 10 m with 8 m/s² and comes to rest on the ground.
 void a_scene_made_in_code() {
   sunder::Scene scene;
   scene.name = "falling box";
@@ -72,7 +71,7 @@ speed_m_s = 30
 radius_m = 0.1
 )";
 
-/// Counts what breaks, by name and material.
+/// Counts breaks by the name of the solid and its material.
 class Breaks final : public sunder::FrameSink {
  public:
   void take(const sunder::FramePtr& frame) override {
@@ -113,7 +112,7 @@ void a_scene_from_a_text() {
   expect(played.hex() == hash.hex(), "a take is played as it was recorded");
 }
 
-/// Where there is a GL driver.
+/// Draws a recording into a PNG file, if there is a GL driver.
 void a_picture() {
   sunder::RecordingReader reader("shot.take");
   sunder::render::RenderOptions options;
@@ -129,7 +128,7 @@ void a_picture() {
   }
 }
 
-/// One frame as an image in memory, and that as a file, where there is a GL driver.
+/// Draws one frame into an image in memory, and writes it to a file, if there is a GL driver.
 void a_frame_drawn() {
   sunder::RecordingReader reader("shot.take");
   reader.seek(30);

@@ -1,5 +1,4 @@
-// What scripts do: blasts, supports that go, driven bodies, joints and wrecking balls; and making
-// room.
+// Tests of scripted actions (blasts, removals, drives, joints, wrecking balls) and of ageing.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -26,7 +25,7 @@ Scene empty_scene() {
   return scene;
 }
 
-/// `count` unit boxes in a row along x, one compound.
+/// Returns a solid of `count` unit boxes in a row along x.
 Solid row(const Vec3& low, int count, bool anchored) {
   Solid solid;
   for (int i = 0; i < count; ++i) {
@@ -38,7 +37,7 @@ Solid row(const Vec3& low, int count, bool anchored) {
   return solid;
 }
 
-/// A run with its physics in reach.
+/// Simulation of a scene, with access to its scripted physics.
 struct ActRun {
   explicit ActRun(Scene scene, double crack_m2 = 1, ScriptedPhysics::Script script = none) {
     auto owned = std::make_unique<ScriptedPhysics>(std::move(script));
@@ -53,7 +52,7 @@ struct ActRun {
   std::unique_ptr<Simulation> simulation;
 };
 
-TEST(Blast, PushesEachFaceThatSeesItByAreaAndDistance) {
+TEST(Blast, PushesEachFaceTurnedTowardsItByAreaAndDistance) {
   Scene scene = empty_scene();
   scene.materials[0].pattern.kind = PatternSpec::Kind::kNone;
   scene.solids = {row(Vec3(2, -0.5, -0.5), 1, false), row(Vec3(-4, -0.5, -0.5), 1, false),
@@ -61,7 +60,7 @@ TEST(Blast, PushesEachFaceThatSeesItByAreaAndDistance) {
   scene.blasts = {{0, Vec3::Zero(), 5, 1000}};
   ActRun run(scene);
   for (int i = 0; i < 5; ++i) run.simulation->next();
-  // Only the face at x = 2 faces it: 1 m², 2 of 5 metres away; 1000 kg.
+  // The blast reaches only the face at x = 2: 1 m², 2 of 5 metres away; 1000 kg.
   EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9);
   EXPECT_NEAR(run.state(1).velocity_W.x(), -0.4 * 0.4, 1e-9);
   EXPECT_EQ(run.state(2).velocity_W.norm(), 0) << "out of reach";
@@ -69,11 +68,11 @@ TEST(Blast, PushesEachFaceThatSeesItByAreaAndDistance) {
   EXPECT_NEAR(run.state(0).velocity_W.x(), 0.6 * 0.6, 1e-9) << "the blast pushes once";
 }
 
-TEST(Blast, PushesOnlyWhatNothingCoversIfItIsAskedTo) {
+TEST(Blast, WithCoverPushesOnlyBodiesInLineOfSight) {
   for (const bool cover : {false, true}) {
     Scene scene = empty_scene();
     scene.materials[0].pattern.kind = PatternSpec::Kind::kNone;
-    // One box behind another, one that is as far off to the side, a ball behind them.
+    // One box behind another, one at an equal distance to the side, and a ball behind both.
     scene.solids = {row(Vec3(1, -0.5, -0.5), 1, true), row(Vec3(2.5, -0.5, -0.5), 1, false),
                     row(Vec3(-0.5, -0.5, 2.5), 1, false)};
     scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(4, 0, 0), Vec3::Zero()}};
@@ -87,7 +86,7 @@ TEST(Blast, PushesOnlyWhatNothingCoversIfItIsAskedTo) {
   }
 }
 
-TEST(Blast, WithinASolidWhoseFacesAllLookAwayLeavesItAlone) {
+TEST(Blast, InsideASolidWhoseFacesAllPointAwayAppliesNoImpulse) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3::Constant(-0.5), 1, false)};
   scene.blasts = {{0, Vec3::Zero(), 5, 1000}};
@@ -97,8 +96,8 @@ TEST(Blast, WithinASolidWhoseFacesAllLookAwayLeavesItAlone) {
   EXPECT_EQ(run.state(0).angular_velocity_W, Vec3(Vec3::Zero()));
 }
 
-TEST(Blast, BreaksWhatItsEnergyCanAndPushesThePieces) {
-  // Each box gets 0.36 i N·s: 0.065 i² / 1000 J together; the crack takes 100 J.
+TEST(Blast, BreaksASolidIfItsEnergyExceedsTheCrackEnergy) {
+  // For i N·s/m², each box gets 0.36 i N·s: 0.065 i² / 1000 J together; the crack takes 100 J.
   for (const double impulse : {500.0, 5000.0}) {
     Scene scene = empty_scene();
     scene.materials[0].impact_radius_m = 10;
@@ -111,7 +110,7 @@ TEST(Blast, BreaksWhatItsEnergyCanAndPushesThePieces) {
   }
 }
 
-TEST(Blast, OfTwoAtOnceBothPush) {
+TEST(Blast, TwoAtOnceBothPush) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3(2, -0.5, -0.5), 1, false)};
   scene.blasts = {{0, Vec3::Zero(), 5, 1000}, {0, Vec3::Zero(), 5, 500}};
@@ -120,7 +119,7 @@ TEST(Blast, OfTwoAtOnceBothPush) {
   EXPECT_NEAR(run.physics->bodies.back().state.velocity_W.norm(), 1.5 * 0.36, 1e-9);
 }
 
-TEST(Removal, OfASolidTakesItsPiecesTooAndTheLedgerKeepsTheMass) {
+TEST(Removal, OfASolidRemovesItsPiecesTooAndTheMassIsAccountedFor) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3::Zero(), 2, false), row(Vec3(0, 5, 0), 1, false)};
   scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 0)}};
@@ -138,7 +137,7 @@ TEST(Removal, OfASolidTakesItsPiecesTooAndTheLedgerKeepsTheMass) {
   EXPECT_NEAR(frame->report.mass_kg, mass, 1e-9);
 }
 
-TEST(Removal, OfAnchorsLetsGoWhatNothingElseHolds) {
+TEST(Removal, OfAnchorsFreesSolidsWithoutOtherAnchors) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3::Zero(), 3, true), row(Vec3(0, 3, 0), 2, true)};
   Removal removal;
@@ -152,7 +151,7 @@ TEST(Removal, OfAnchorsLetsGoWhatNothingElseHolds) {
   EXPECT_FALSE(frame->bodies[1].is_static);
 }
 
-TEST(Drive, HoldsAVelocityAsFarAsItsForceGoes) {
+TEST(Drive, ReachesItsVelocityWithAtMostItsForce) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3::Zero(), 1, false)};  // 1000 kg
   scene.drives = {{0.5, 1.5, {0}, Vec3(2, 0, 0), 3000}};
@@ -163,7 +162,7 @@ TEST(Drive, HoldsAVelocityAsFarAsItsForceGoes) {
   EXPECT_NEAR(run.state(0).velocity_W.x(), 2, 1e-9);
 }
 
-TEST(Drive, HoldsASpinAsFarAsItsTorqueGoesAndPushesNowhere) {
+TEST(Drive, ReachesItsSpinWithAtMostItsTorqueAndAppliesNoForce) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3::Zero(), 1, false)};  // 1000 kg, 1 m: 167 kg m²
   const Vec3 axis = Vec3(2, 1, -2) / 3;
@@ -209,14 +208,14 @@ TEST(WreckingBall, HangsOnAChainThatReachesItsSurface) {
       << "the mass of the ball and its chain is counted from the start";
 }
 
-TEST(Joint, FollowsThePieceThatHasItsAnchorOrGoes) {
+TEST(Joint, FollowsThePieceThatHasItsAnchorOrIsRemoved) {
   Scene scene = empty_scene();
   scene.solids = {row(Vec3(0, 0, 0), 3, false)};
   scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.3, 0.5, 0.5), Vec3(60, 0, 0)}};
   Joint at_end;  // at the far end, a little outside
   at_end.a = 0;
   at_end.at_W = Vec3(3.001, 0.5, 0.5);
-  Joint beside = at_end;  // above nothing
+  Joint beside = at_end;  // 1 m above the solid: no convex is near
   beside.at_W = Vec3(1.5, 2, 0.5);
   scene.joints = {at_end, beside};
   ActRun run(scene, 0.01, [](const ScriptedPhysics& scripted, int) {
@@ -232,7 +231,7 @@ TEST(Joint, FollowsThePieceThatHasItsAnchorOrGoes) {
   EXPECT_NEAR(body.desc.com_R.x(), 2.5, 1e-9) << "the last of the three";
 }
 
-/// Twenty unit boxes, one larger than the other, parted from one another and at rest.
+/// Twenty boxes of different heights, separated from one another by a break and asleep.
 struct Rubble : ActRun {
   static Scene scene_of(Limits limits) {
     Scene scene = empty_scene();
@@ -277,7 +276,7 @@ TEST(Ageing, MakesDebrisOfTheSmallestFragmentsAtRestAndKeepsTheMass) {
   EXPECT_EQ(rubble.simulation->next()->report.aged, 0u);
 }
 
-TEST(Ageing, LeavesWhatMovesAndWhatIsNoFragment) {
+TEST(Ageing, LeavesMovingBodiesAndWholeSolids) {
   Limits limits;
   limits.ageing = 16;
   Rubble rubble(limits);
@@ -291,15 +290,15 @@ TEST(Ageing, LeavesWhatMovesAndWhatIsNoFragment) {
   EXPECT_EQ(whole.simulation->next()->bodies.size(), 20u);
 }
 
-TEST(Ageing, WithRoomEnoughDoesNothing) {
+TEST(Ageing, BelowTheLimitDoesNothing) {
   Rubble rubble(Limits{});
   EXPECT_EQ(rubble.simulation->next()->bodies.size(), 21u);
 }
 
-TEST(Joint, WhatIsFixedToTheWorldBearsAllOfABlowHoweverLightItIs) {
+TEST(Joint, ABodyFixedToTheWorldBearsTheWholeImpactWhateverItsMass) {
   for (const double energy_J : {25.0, 45.0}) {
     Scene scene = empty_scene();
-    scene.materials[0].impact_radius_m = 10;  // least crack: 16 J
+    scene.materials[0].impact_radius_m = 10;  // the smallest crack takes 16 J
     Material lead;
     lead.density_kg_m3 = 80000;
     scene.materials.push_back(lead);

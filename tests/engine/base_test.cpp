@@ -1,4 +1,4 @@
-// What the lowest floor promises: indices, random numbers, trigonometry, parallel loops.
+// Tests of engine/base: indices, hashes, random numbers, trigonometry, poses, parallel loops.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +24,7 @@ struct AppleTag;
 struct PearTag;
 using Apple = Index<AppleTag>;
 
-TEST(Index, NamesNothingUntilItIsGivenAValue) {
+TEST(Index, IsNoneUntilItIsGivenAValue) {
   EXPECT_TRUE(Apple().none());
   EXPECT_FALSE(Apple(0).none());
   EXPECT_EQ(Apple(7).value, 7u);
@@ -145,7 +145,7 @@ TEST(Box, IsEmptyUntilExtendedAndThenHoldsItsPoints) {
   EXPECT_EQ(box.extent(), Vec3(2, 2, 0));
 }
 
-/// Restores the number of threads that a test changes.
+/// Sets the number of threads for a test and restores the default afterwards.
 class ForChunks : public ::testing::TestWithParam<int> {
  protected:
   void SetUp() override { set_threads(GetParam()); }
@@ -198,7 +198,7 @@ TEST_P(ForChunks, MayRunOnSeveralThreadsOfTheCallersAtOnce) {
   EXPECT_EQ(sums, std::vector<std::size_t>(3, 300 * (799 * 800 / 2)));
 }
 
-TEST_P(ForChunks, SharesItsWorkOnlyOnce) {
+TEST_P(ForChunks, ANestedLoopMayNotRunInParallel) {
   EXPECT_EQ(can_run_parallel(), GetParam() > 1);
   for_chunks(8, 1, [](std::size_t, std::size_t, std::size_t) {
     if (GetParam() > 1) {

@@ -14,23 +14,24 @@ namespace sunder::test {
 inline constexpr double kRadian = 3.14159265358979323846 / 180;
 inline constexpr double kTolerance = 1e-14;
 
-/// The face that looks most in a direction.
+/// Returns the index of the face whose normal is closest to `direction`.
 inline std::uint32_t face_towards(const ConvexPolyhedron& convex, const Vec3& direction) {
-  const auto looks_less = [&](const ConvexPolyhedron::Face& a, const ConvexPolyhedron::Face& b) {
+  const auto is_less_aligned = [&](const ConvexPolyhedron::Face& a,
+                                   const ConvexPolyhedron::Face& b) {
     return a.plane.normal.dot(direction) < b.plane.normal.dot(direction);
   };
   return static_cast<std::uint32_t>(
-      std::max_element(convex.faces.begin(), convex.faces.end(), looks_less) -
+      std::max_element(convex.faces.begin(), convex.faces.end(), is_less_aligned) -
       convex.faces.begin());
 }
 
-/// One side of a bar: columns of convexes, each from the section on.
+/// One side of a bar: columns of convexes, each listed from the section outwards.
 struct Side {
   std::vector<std::vector<ConvexPolyhedron>> columns;
   SectionEnd end;
   PlaneId section;
 
-  /// Calls `visit` with every face in the section and its convex.
+  /// Calls `visit(convex, face index)` for each face that lies in the section.
   template <class Visit>
   void for_each_end(const Visit& visit) const {
     for (const auto& column : columns) {
@@ -59,7 +60,7 @@ struct Side {
         [&](const ConvexPolyhedron& convex, std::size_t f) { sum += face_area(convex, f); });
     return sum;
   }
-  /// How far the section reaches, in a direction.
+  /// Returns the largest coordinate of the section's corners along `direction`.
   double reach(const Pose& X_AB, const Vec3& direction) const {
     double farthest = -1e300;
     for_each_end([&](const ConvexPolyhedron& convex, std::size_t f) {
@@ -71,19 +72,19 @@ struct Side {
   }
 };
 
-/// A bar of blocks from x = −2 to 2 that parts at x = 0.
+/// A bar of blocks from x = −2 to 2 with a section at x = 0.
 struct Bar {
-  int length, depth, width;  ///< Blocks of a side.
+  int length, depth, width;  ///< Number of blocks of one side along x, y and z.
   double height = 1, breadth = 0.5;
   SectionEnd a{{0, 0.5, 0.25}, Vec3::UnitX()}, b{{0, 0.5, 0.25}, -Vec3::UnitX()};
 
-  /// The plane at a place along an axis, seen from below or above.
-  static PlaneId name(int axis, int place, bool above) {
+  /// Returns the id of the grid plane `place` along `axis`, as a face of the block below or above.
+  static PlaneId plane_id(int axis, int place, bool above) {
     return {2 * static_cast<std::uint64_t>(1000 * (axis + 1) + place) + (above ? 1 : 0)};
   }
 
   Side side(bool is_a) const {
-    Side side{{}, is_a ? a : b, name(0, 0, !is_a)};
+    Side side{{}, is_a ? a : b, plane_id(0, 0, !is_a)};
     for (int j = 0; j < depth; ++j) {
       for (int k = 0; k < width; ++k) {
         auto& column = side.columns.emplace_back();
@@ -99,13 +100,14 @@ struct Bar {
     const int at[] = {i, j, k};
     for (int axis = 0; axis < 3; ++axis) {
       const auto f = static_cast<std::size_t>(2 * axis);
-      box.faces[f].id = name(axis, at[axis], true);
-      box.faces[f + 1].id = name(axis, at[axis] + 1, false);
+      box.faces[f].id = plane_id(axis, at[axis], true);
+      box.faces[f + 1].id = plane_id(axis, at[axis] + 1, false);
     }
     return box;
   }
 };
 
+/// Returns `side` with its columns ended in `midplane`, whose faces get the id `id`.
 inline Side mitred(const Side& side, const Plane& midplane, PlaneId id) {
   MitreScratch scratch;
   Side ended{{}, side.end, id};
@@ -124,7 +126,7 @@ inline Side mitred(const Side& side, const Plane& midplane, PlaneId id) {
   return ended;
 }
 
-/// B turned about its centroid, and moved by `gap` in A's frame.
+/// Returns the pose of side B in A's frame: turned about B's section centroid, then moved by `gap`.
 inline Pose turned(const Bar& bar, const Quat& turn, const Vec3& gap = Vec3::Zero()) {
   return {bar.a.centroid - turn * bar.b.centroid + gap, turn};
 }

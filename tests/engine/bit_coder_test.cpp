@@ -1,4 +1,4 @@
-// What the range coder promises: numbers come back, what repeats costs little, no bytes harm it.
+// Tests of the range coder: round trips, size of repeated numbers, damaged bytes.
 #include "engine/io/recording/bit_coder.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace sunder {
 namespace {
 
-/// Numbers of every length, mostly small.
+/// Returns eight special numbers and `count` random numbers of 0 to 32 bits.
 std::vector<std::uint32_t> numbers(int count) {
   Random random(5);
   std::vector<std::uint32_t> all = {0, 1, 2, 3, 4, 0x7fffffff, 0x80000000, 0xffffffff};
@@ -31,7 +31,7 @@ std::vector<std::byte> written(std::span<const std::uint32_t> all) {
   return out.bytes;
 }
 
-TEST(BitCoder, NumbersOfEveryLengthComeBack) {
+TEST(BitCoder, NumbersOfEveryLengthAreReadBack) {
   for (const int count : {0, 1, 1000, 100000}) {
     const std::vector<std::uint32_t> all = numbers(count);
     const std::vector<std::byte> bytes = written(all);
@@ -46,8 +46,8 @@ TEST(BitCoder, NumbersOfEveryLengthComeBack) {
   }
 }
 
-TEST(BitCoder, CarriesRunThroughBytesThatAreFull) {
-  // Ones of a bit that is mostly zero lie at the very top of the range.
+TEST(BitCoder, CarriesPropagateThroughBytesOf255) {
+  // Ones of a bit that is mostly zero lie at the top of the coder's range.
   for (int ones = 1; ones < 200; ++ones) {
     BitModel rare, seen;
     BitWriter bits;
@@ -60,7 +60,7 @@ TEST(BitCoder, CarriesRunThroughBytesThatAreFull) {
   }
 }
 
-TEST(BitCoder, WhatRepeatsCostsAFractionOfABit) {
+TEST(BitCoder, RepeatedNumbersTakeAFractionOfABitEach) {
   NumberModel model;
   BitWriter bits;
   for (int i = 0; i < 80000; ++i) model.put(bits, 0);
@@ -69,7 +69,7 @@ TEST(BitCoder, WhatRepeatsCostsAFractionOfABit) {
   EXPECT_LT(out.bytes.size(), 80000u / 8 / 50);
 }
 
-TEST(BitCoder, ReadsWhateverTheBytesAreAndZerosBehindTheirEnd) {
+TEST(BitCoder, ReadsDamagedBytesAsOtherNumbersAndZerosBeyondTheirEnd) {
   const std::vector<std::uint32_t> all = numbers(2000);
   std::vector<std::byte> bytes = written(all);
   Random random(9);

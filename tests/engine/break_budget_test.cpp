@@ -1,4 +1,4 @@
-// What a frame allows for of breaking.
+// Tests of the budget of breaks of a frame.
 #include <gtest/gtest.h>
 
 #include "engine/world/break/break_stage.h"
@@ -6,7 +6,7 @@
 namespace sunder {
 namespace {
 
-TEST(BreakBudget, LooksAndNewBodiesCountAgainstTheBudgetButOneBreakIsAlwaysTakenOn) {
+TEST(BreakBudget, EvaluationsAndNewBodiesUseTheBudgetButOneBreakIsAlwaysAccepted) {
   BreakBudget budget(10);
   budget.begin_frame();
   budget.charge(100);

@@ -1,4 +1,5 @@
-// Blasts of charges: the impulse of a wave is that of the tables, and what it strikes is given it.
+// Tests of blasts of charges: the impulse of a blast wave against published tables, and the
+// momentum it gives to plates.
 #include "engine/world/act/charge.h"
 
 #include <cmath>
@@ -29,9 +30,9 @@ TEST(Exponential, AndLogarithmAreThoseOfTheLibrary) {
 
 TEST(Charge, OnTheGroundHasTheImpulsesOfPublishedTables) {
   struct Row {
-    double z, incident, reflected;  // m, Pa·s; of 1 kg
+    double z, incident, reflected;  // distance in m, impulses in Pa·s; 1 kg of TNT
   };
-  // Swisdak 1994, table 3 (metric).
+  // Source: Swisdak 1994, table 3 (metric).
   const Row swisdak[] = {{0.2, 369.5, 10520}, {0.5, 166.2, 2371}, {0.8, 201.5, 1201},
                          {0.9, 223.9, 1021},  {1, 236.3, 884.7},  {1.5, 177.4, 520.7},
                          {2, 134.6, 363.8},   {3, 92.7, 224.3},   {5, 59.31, 125.6},
@@ -45,7 +46,7 @@ TEST(Charge, OnTheGroundHasTheImpulsesOfPublishedTables) {
                       std::abs(wave.incident_Pa_s / row.incident - 1)});
   };
   for (const Row& row : swisdak) compare(1, row, 0.006);
-  // IATG 01.80, table 5: at 50 m, in bar·ms.
+  // Source: IATG 01.80, table 5: at 50 m, in bar·ms.
   compare(1e5, {50, 106e2, 372e2}, 0.006);
   compare(1e4, {50, 25.2e2, 65.5e2}, 0.006);
   compare(1e3, {50, 5.9e2, 12.6e2}, 0.006);
@@ -53,7 +54,7 @@ TEST(Charge, OnTheGroundHasTheImpulsesOfPublishedTables) {
 }
 
 TEST(Charge, InTheAirHasTheImpulsesOfTheFitsForSphericalBursts) {
-  // Kingery and Bulmash 1984, spherical, metric: log10 i_r by U = -0.204 + 1.3788 log10 Z.
+  // Source: Kingery and Bulmash 1984, spherical, metric: log10 i_r by U = -0.204 + 1.3788 log10 Z.
   double worst = 0;
   for (double z = 0.1; z < 32; z *= 1.2) {
     const double u = -0.204004553231 + 1.37882996018 * std::log10(z);
@@ -79,7 +80,8 @@ TEST(Charge, HasTheImpulseOfTheNearestScaledDistanceWithinItAndNoneOutOfReach) {
               1, 0.006);
 }
 
-/// A plate of density 1000 kg/m³ across x, its near face at x = `distance_m`, turned about z.
+/// Returns a scene of a charge at the origin and a plate of 1000 kg/m³ across x, whose near face is
+/// at x = `distance_m`, turned about z.
 Scene plate_scene(double distance_m, double half_m, double thick_m, double tnt_kg,
                   double turn_rad = 0) {
   Scene scene;
@@ -101,6 +103,7 @@ Scene plate_scene(double distance_m, double half_m, double thick_m, double tnt_k
   return scene;
 }
 
+/// Returns the momentum of the scene's first solid after six frames, in N s.
 Vec3 momentum_of(const Scene& scene) {
   auto owned = std::make_unique<ScriptedPhysics>(
       [](const ScriptedPhysics&, int) { return std::vector<SpeculativeContact>(); });
@@ -157,7 +160,7 @@ TEST(Charge, PushesABallByTheSumOverTheHalfThatFacesIt) {
   constexpr int kParts = 10000;
   for (int i = 0; i < kParts; ++i) {
     const double cosine = (i + 0.5) / kParts;
-    sum += 2 * cosine * wave.at_incidence(cosine) / kParts;  // over pi r²
+    sum += 2 * cosine * wave.at_incidence(cosine) / kParts;  // per π r²
   }
   EXPECT_NEAR(wave.on_ball(), sum, 1e-5 * sum);
   EXPECT_EQ(wave.at_incidence(1), 300);

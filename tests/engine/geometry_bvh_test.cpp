@@ -1,4 +1,4 @@
-// The hierarchy answers as going through all boxes does.
+// Tests of the bounding volume hierarchy against brute force.
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Cutting convexes: whatever the plane, the pieces are closed and make up the whole.
+// Tests of clip() on convexes: for any plane, pieces are closed and their volumes sum to the whole.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ void expect_sound(const ConvexPolyhedron& piece, double size) {
   EXPECT_TRUE(is_convex(piece, 1e-13 * size));
 }
 
-/// Cuts `solid` and expects closed pieces that make it up.
+/// Cuts `solid` and expects closed pieces whose volumes sum to its volume.
 Halves expect_halves(const ConvexPolyhedron& solid, const Plane& plane, double size,
                      double tolerance = 0) {
   Halves halves = split(solid, plane, tolerance);
@@ -174,7 +174,7 @@ TEST(Clip, CornerNormalsAreInterpolatedAlongCutEdges) {
       EXPECT_NEAR(half.corner_normals[c].norm(), 1, 1e-6);
       const Vec3& v = half.vertices[half.corners[c]];
       if (std::abs(v.z() - 0.1) > 1e-12 || std::abs(face.plane.normal.y()) > 0.5) continue;
-      // On the facet between the corners at 0 and 45 degrees, whose normals are radial.
+      // The vertex is on the facet between the corners at 0 and 45°, whose normals are radial.
       const double corner_z = std::sqrt(0.5), t = 0.1 / corner_z;
       const Vec3 start(v.x() > 0 ? 1 : -1, 0, 0), end(start.x() * corner_z, 0, corner_z);
       const Vec3 expected = ((1 - t) * start + t * end).normalized();

@@ -1,4 +1,4 @@
-// What the geometry tests share: random solids and planes, and measures of them.
+// Random solids and planes for the geometry tests, and functions that cut and measure solids.
 #pragma once
 
 #include <vector>
@@ -31,7 +31,7 @@ inline ConvexPolyhedron cube(double size) {
   return make_box(Vec3::Constant(-size), Vec3::Constant(size));
 }
 
-/// Counter-clockwise seen from +y.
+/// Returns a regular polygon in the xz-plane, counter-clockwise as seen from +y.
 inline std::vector<Vec2> regular_polygon(int sides, double radius) {
   std::vector<Vec2> polygon;
   for (int i = 0; i < sides; ++i) {
@@ -41,7 +41,7 @@ inline std::vector<Vec2> regular_polygon(int sides, double radius) {
   return polygon;
 }
 
-/// One of many kinds of solid within about [-size, size]³.
+/// Returns a box, prism, turned box or hull of random points within about [-size, size]³.
 inline ConvexPolyhedron random_solid(Random& random, double size) {
   switch (random.below(4)) {
     case 0:
@@ -60,7 +60,7 @@ inline ConvexPolyhedron random_solid(Random& random, double size) {
   }
 }
 
-/// Both sides of a cut; an empty polyhedron where nothing is left.
+/// Both sides of a cut; a side without volume is an empty polyhedron.
 struct Halves {
   ConvexPolyhedron inside, outside;
 };
@@ -84,7 +84,7 @@ inline Halves split(const ConvexPolyhedron& solid, const Plane& plane, double to
 
 inline double volume(const ConvexPolyhedron& solid) { return mass_properties(solid).volume_m3; }
 
-/// Whether no corner lies more than `tolerance` off its face's plane or outside another.
+/// True if each corner lies within `tolerance` of its face's plane and of the inside of all others.
 inline bool is_convex(const ConvexPolyhedron& solid, double tolerance) {
   for (const ConvexPolyhedron::Face& face : solid.faces) {
     for (const Vec3& v : solid.vertices) {

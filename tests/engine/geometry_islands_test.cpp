@@ -1,4 +1,4 @@
-// What a cut parts, and what holes and hollows hold together.
+// Tests of the islands of cut meshes, with holes and hollows.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ PolygonMesh cut(const PolygonMesh& mesh, const Plane& plane) {
   return side == PlaneSide::kCut ? result : side == PlaneSide::kInside ? mesh : PolygonMesh{};
 }
 
-/// Both in one mesh, without joining anything.
-PolygonMesh together(PolygonMesh a, const PolygonMesh& b) {
+/// Returns one mesh of both, without merging vertices.
+PolygonMesh concatenated(PolygonMesh a, const PolygonMesh& b) {
   const auto vertices = static_cast<std::uint32_t>(a.vertices.size());
   const auto contours = static_cast<std::uint32_t>(a.contours.size());
   const auto corners = static_cast<std::uint32_t>(a.corners.size());
@@ -48,7 +48,7 @@ TEST(Islands, AMeshInOnePartComesBackAsItWas) {
   EXPECT_TRUE(islands({}).empty());
 }
 
-TEST(Islands, ACombLosesItsTeethTogether) {
+TEST(Islands, ACutCombGivesOneIslandPerTooth) {
   const PolygonMesh teeth = cut(comb(5), Plane{Vec3::UnitZ(), 0.1});
   const std::vector<PolygonMesh> parts = islands(teeth);
   ASSERT_EQ(parts.size(), 5u);
@@ -62,14 +62,15 @@ TEST(Islands, ACombLosesItsTeethTogether) {
 TEST(Islands, AHollowBelongsToTheSolidAroundIt) {
   EXPECT_EQ(islands(hollow_box()).size(), 1u);
   EXPECT_EQ(islands(cut(hollow_box(), Plane{Vec3::UnitX(), 0})).size(), 1u);
-  const std::vector<PolygonMesh> parts = islands(together(hollow_box(), polygon_mesh(cube(0.25))));
+  const std::vector<PolygonMesh> parts =
+      islands(concatenated(hollow_box(), polygon_mesh(cube(0.25))));
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_NEAR(test::volume(parts[0]), 7, 1e-14);
   EXPECT_NEAR(test::volume(parts[1]), 0.125, 1e-15);
 }
 
 TEST(Islands, ASolidInAHollowIsPartedFromItByACutThroughBoth) {
-  const PolygonMesh nested = together(hollow_box(), polygon_mesh(cube(0.25)));
+  const PolygonMesh nested = concatenated(hollow_box(), polygon_mesh(cube(0.25)));
   const PolygonMesh half = cut(nested, Plane{Vec3(0.6, 0.8, 0), 0});
   EXPECT_EQ(half.faces.back().contour_count, 3u);
   const std::vector<PolygonMesh> parts = islands(half);

@@ -1,4 +1,4 @@
-// Meshes that are not convex: concave faces, holes, tunnels, several shells.
+// Meshes that are not convex, for tests: concave faces, holes, tunnels, several shells.
 #pragma once
 
 #include <vector>
@@ -25,8 +25,8 @@ inline void add_polygon(PolygonMesh& mesh, std::vector<std::vector<std::uint32_t
   mesh.corner_normals.resize(mesh.corners.size(), face.plane.normal.cast<float>());
 }
 
-/// Contours in the xz-plane, the first counter-clockwise seen from +y and holes clockwise, swept
-/// from y = 0 to 1.
+/// Returns the prism of contours in the xz-plane from y = 0 to 1. The first contour is
+/// counter-clockwise as seen from +y, and holes are clockwise.
 inline PolygonMesh swept(const std::vector<std::vector<Vec2>>& contours) {
   PolygonMesh mesh;
   std::vector<std::vector<std::uint32_t>> top, bottom;
@@ -51,7 +51,7 @@ inline PolygonMesh swept(const std::vector<std::vector<Vec2>>& contours) {
   return mesh;
 }
 
-/// A comb of `teeth` on a bar: polygons that a line crosses many times.
+/// Returns a comb of `teeth` teeth, with polygons that a line crosses many times.
 inline PolygonMesh comb(int teeth) {
   std::vector<Vec2> outline = {{-1, 1}, {1, 1}};
   for (int i = teeth; i-- > 0;) {
@@ -64,13 +64,13 @@ inline PolygonMesh comb(int teeth) {
   return swept({outline});
 }
 
-/// A ring: faces with a hole, genus 1.
+/// Returns a square ring: faces with a hole, genus 1.
 inline PolygonMesh ring() {
   return swept(
       {{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}, {{-0.5, 0.5}, {-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}}});
 }
 
-/// A box with a box of air in it: two shells.
+/// Returns a box with a cavity: two shells.
 inline PolygonMesh hollow_box() {
   PolygonMesh mesh = polygon_mesh(cube(1));
   const PolygonMesh inner = polygon_mesh(cube(0.5));

@@ -1,4 +1,4 @@
-// Cutting meshes that are not convex: pieces stay watertight and make up the whole.
+// Tests of clip() on meshes: pieces are watertight and their volumes sum to the whole.
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +42,7 @@ MeshHalves expect_halves(const PolygonMesh& mesh, const Plane& plane, double tol
   return halves;
 }
 
-/// How often a surface winds around a point.
+/// Returns the winding number of the surface around `point`.
 double winding(const PolygonMesh& mesh, const Vec3& point) {
   double angle = 0;
   for (std::size_t k = 0; k < mesh.contours.size(); ++k) {

@@ -1,4 +1,4 @@
-// Visual meshes at a bend: watertight, and as voluminous as they were.
+// Tests of mitres of visual meshes: watertight, with unchanged volume.
 #include <gtest/gtest.h>
 
 #include "engine/geometry/mitre.h"
@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-/// The half of a solid swept along y that is below y = 0, made 10 m long; its cap is named 4.
+/// Returns the lower half, 10 m long, of a solid swept along y; its cap at y = 0 has the id 4.
 PolygonMesh lower_half(PolygonMesh mesh) {
   for (Vec3& v : mesh.vertices) v.y() = 20 * (v.y() - 0.5);
   for (PolygonMesh::Face& face : mesh.faces) {

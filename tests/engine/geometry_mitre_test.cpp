@@ -1,4 +1,4 @@
-// Bent sections: whatever the bend, both sides end in one plane, closed, and keep their volume.
+// Tests of mitres: at any bend, both sides are closed, end in one plane, and keep their volume.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ void expect_sound(const Side& side) {
   }
 }
 
-/// Every face lies in the midplane or in a plane that the bar had, bit for bit.
+/// Expects that each face lies, bit for bit, in the midplane or in a plane of the straight side.
 void expect_old_planes(const Side& straight, const Side& bent, const Plane& midplane) {
   std::map<PlaneId, Plane> planes;
   for (const auto& column : straight.columns) {
@@ -54,7 +54,7 @@ void expect_old_planes(const Side& straight, const Side& bent, const Plane& midp
   }
 }
 
-/// Both sections are the same polygon in space.
+/// Expects that both sections are one polygon in space.
 void expect_same_outline(const Side& a, const Side& b, const Pose& X_AB) {
   for (int i = 0; i < 24; ++i) {
     const SinCos at = sin_cos(15 * i * kRadian);
@@ -82,14 +82,14 @@ TEST(Mitre, BothSidesEndInOneFaceAndKeepTheirVolume) {
       expect_old_planes(b, bent_b, plane->b);
       if (axis.x() == 0) expect_same_outline(bent_a, bent_b, X_AB);
       if (degrees == 120 && axis.y() == 0) {
-        // Of 16 blocks of ⅛ m the plane reaches 7 below, at 0.87 m, and 4 above that, at 0.43 m.
+        // The plane reaches the 7th block of ⅛ m below, at 0.87 m, and the 4th above, at 0.43 m.
         EXPECT_EQ(a.size() - bent_a.size(), 2u * (6 + 3));
       }
     }
   }
 }
 
-/// Any bend of up to 120° in all.
+/// Returns a random bend of at most 120°, with a twist of at most 0.5 rad if `twisted`.
 Quat random_bend(Random& random, bool twisted) {
   const SinCos at = sin_cos(random.uniform(0, 360 * kRadian));
   const Quat bend = rotation_by(random.uniform(0, 120 * kRadian) * Vec3(0, at.sin, at.cos));
@@ -142,7 +142,7 @@ TEST(Mitre, TheFormerFacesGiveTheSamePlaneAsTheEdgesUnlessSidesTwist) {
   }
 }
 
-TEST(Mitre, DrawnOutBothSidesGainHalfTheGap) {
+TEST(Mitre, BothSidesOfAnElongatedSectionGainHalfTheGap) {
   const Bar bar{8, 4, 2};
   const Quat turn = rotation_by(40 * kRadian * Vec3(0, 0.6, 0.8));
   const Vec3 normal = midplane(bar.a, bar.b, turned(bar, turn))->a.normal;
@@ -156,7 +156,7 @@ TEST(Mitre, DrawnOutBothSidesGainHalfTheGap) {
   }
 }
 
-TEST(Mitre, BentToAndFroItIsWhatItWas) {
+TEST(Mitre, BendingToAndFroGivesBackTheStraightBar) {
   const Bar bar{4, 2, 2};
   Side a = bar.side(true);
   for (std::uint64_t bend = 1; bend <= 60; ++bend) {
@@ -201,7 +201,7 @@ TEST(Mitre, AMidplaneIsOnePlaneInBothFrames) {
   }
 }
 
-/// A pyramid with its tip cut off: 2 by 2 at y = 0, `top` by `top` at y = 1.
+/// Returns a frustum of a pyramid: 2 by 2 at y = 0, `top` by `top` at y = 1.
 ConvexPolyhedron frustum(double top) {
   std::vector<Vec3> points;
   for (const double x : {-0.5, 0.5}) {
@@ -213,8 +213,8 @@ ConvexPolyhedron frustum(double top) {
   return make_hull(points);
 }
 
-/// What is left of a convex whose face towards +y ends in a plane instead.
-ConvexPolyhedron ended(const ConvexPolyhedron& convex, const Plane& plane) {
+/// Returns `convex` with its face towards +y replaced by `plane`; empty if nothing is left.
+ConvexPolyhedron with_top_in(const ConvexPolyhedron& convex, const Plane& plane) {
   MitreScratch scratch;
   ConvexPolyhedron result;
   const ColumnCell column[] = {{&convex, face_towards(convex, Vec3::UnitY())}};
@@ -224,30 +224,31 @@ ConvexPolyhedron ended(const ConvexPolyhedron& convex, const Plane& plane) {
 
 TEST(Mitre, SidesThatTaperCloseInTheirTip) {
   const Plane high = Plane::through(Vec3(0, 5, 0), Vec3::UnitY());
-  const ConvexPolyhedron tip = ended(frustum(1), high);
+  const ConvexPolyhedron tip = with_top_in(frustum(1), high);
   EXPECT_TRUE(is_closed(tip));
   EXPECT_EQ(tip.faces.size(), 5u);
   EXPECT_NEAR(volume(tip), 4 * 2 / 3.0, 1e-14);  // a pyramid that is 2 high
-  const ConvexPolyhedron longer = ended(frustum(1), Plane::through(Vec3(0, 1.5, 0), Vec3::UnitY()));
+  const ConvexPolyhedron longer =
+      with_top_in(frustum(1), Plane::through(Vec3(0, 1.5, 0), Vec3::UnitY()));
   EXPECT_NEAR(volume(longer), (4 * 2 - 0.25 * 0.5) / 3.0, 1e-14);
   EXPECT_EQ(longer.faces.back().id, PlaneId{2});
 }
 
-TEST(Mitre, SidesThatFlareAreDrawnOutButNotWithoutEnd) {
+TEST(Mitre, SidesThatFlareAreExtendedButNotWithoutLimit) {
   const Plane level = Plane::through(Vec3(0, 1.5, 0), Vec3::UnitY());
   const ConvexPolyhedron wide = frustum(4);  // a pyramid upside down, its tip at y = −1
-  EXPECT_NEAR(volume(ended(wide, level)), (5 * 5 * 2.5 - 2 * 2 * 1) / 3.0, 1e-13);
-  // Sides at 45° never reach a plane as steep as they are; what lies beyond it is still cut off.
+  EXPECT_NEAR(volume(with_top_in(wide, level)), (5 * 5 * 2.5 - 2 * 2 * 1) / 3.0, 1e-13);
+  // Sides at 45° never reach the steep plane, parallel to them, but volume beyond it is cut off.
   const Plane steep = Plane::through(Vec3(0, 1, 0), Vec3(1, 1, 0).normalized());
-  const ConvexPolyhedron cut = ended(wide, steep);
+  const ConvexPolyhedron cut = with_top_in(wide, steep);
   EXPECT_TRUE(is_closed(cut));
   EXPECT_NEAR(volume(cut), volume(split(wide, steep, kTolerance).inside), 1e-15);
   EXPECT_LT(volume(cut), volume(wide));
   const Plane farther = Plane::through(Vec3(0, 9, 0), steep.normal);
-  EXPECT_EQ(volume(ended(wide, farther)), volume(wide));
+  EXPECT_EQ(volume(with_top_in(wide, farther)), volume(wide));
 }
 
-TEST(Mitre, AFrontInSeveralFacesIsOne) {
+TEST(Mitre, CoplanarEndFacesAreMitredAsOne) {
   ConvexPolyhedron box = cube(1);
   const ConvexPolyhedron::Face top = box.faces[3];
   const std::uint32_t* corner = box.corners.data() + top.first_corner;
@@ -259,28 +260,28 @@ TEST(Mitre, AFrontInSeveralFacesIsOne) {
   box.corner_normals.pop_back();
   for (std::size_t f = 4; f < box.faces.size(); ++f) --box.faces[f].first_corner;
   ASSERT_TRUE(is_closed(box));
-  const ConvexPolyhedron longer = ended(box, Plane::through(Vec3(0, 3, 0), Vec3::UnitY()));
+  const ConvexPolyhedron longer = with_top_in(box, Plane::through(Vec3(0, 3, 0), Vec3::UnitY()));
   EXPECT_EQ(longer.faces.size(), 6u);
   EXPECT_NEAR(volume(longer), 16, 1e-14);
 }
 
-TEST(Mitre, WithoutABendOnlyTheNameChanges) {
+TEST(Mitre, WithoutABendOnlyTheFaceIdChanges) {
   const ConvexPolyhedron box = cube(1);
-  const ConvexPolyhedron same = ended(box, Plane::through(Vec3(0, 1, 0), Vec3::UnitY()));
+  const ConvexPolyhedron same = with_top_in(box, Plane::through(Vec3(0, 1, 0), Vec3::UnitY()));
   EXPECT_EQ(same.faces.size(), 6u);
   EXPECT_EQ(same.faces.back().id, PlaneId{2});
   EXPECT_EQ(volume(same), volume(box));
 }
 
-TEST(Mitre, WhatLiesBeyondIsGone) {
+TEST(Mitre, AConvexBeyondThePlaneIsRemoved) {
   const Plane below = Plane::through(Vec3(0, -2, 0), Vec3(0.6, 0.8, 0));
-  EXPECT_TRUE(ended(cube(1), below).empty());
+  EXPECT_TRUE(with_top_in(cube(1), below).empty());
 }
 
 TEST(Mitre, ARoundColumnStaysRound) {
   const ConvexPolyhedron column = make_prism(regular_polygon(24, 0.5), -2, 0, true);
   const Plane plane = Plane::through(Vec3::Zero(), Vec3(0.6, 0.8, 0));
-  const ConvexPolyhedron bent = ended(column, plane);
+  const ConvexPolyhedron bent = with_top_in(column, plane);
   ASSERT_TRUE(is_closed(bent));
   EXPECT_NEAR(volume(bent), volume(column), 1e-14);
   int at_mitre = 0;
@@ -296,7 +297,7 @@ TEST(Mitre, ARoundColumnStaysRound) {
   EXPECT_EQ(at_mitre, 2 * 24);
 }
 
-/// A cell of random points: a cube cut midway between its centre and others.
+/// Returns a Voronoi cell of random points within a cube.
 ConvexPolyhedron random_cell(Random& random) {
   ConvexPolyhedron cell = cube(1);
   const Vec3 centre = random_point(random, 0.3);

@@ -1,4 +1,4 @@
-// Boxes, prisms, hulls and their mass, against closed forms.
+// Tests of boxes, prisms, hulls and their mass properties against closed forms.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// One mesh cut to many regions at once: as cutting to each in turn.
+// Tests of split(): a mesh cut to many regions at once equals the mesh cut to each region alone.
 #include <cmath>
 #include <limits>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-/// Regions with the planes they point to.
+/// Regions and the storage of the planes that they refer to.
 struct Regions {
   std::vector<std::vector<NamedPlane>> planes;
   std::vector<MeshRegion> regions;
@@ -34,7 +34,7 @@ struct Regions {
 const Box kEverywhere{Vec3::Constant(-std::numeric_limits<double>::infinity()),
                       Vec3::Constant(std::numeric_limits<double>::infinity())};
 
-/// The cells of random sites; where `boxed`, with the boxes of their parts in [-2, 2]³.
+/// Returns the Voronoi cells of random sites; if `boxed`, with their bounds within [-2, 2]³.
 Regions voronoi(Random& random, std::uint64_t cells, bool boxed) {
   std::vector<Vec3> sites(cells);
   for (Vec3& site : sites) site = random_point(random, 1);
@@ -60,7 +60,7 @@ Regions voronoi(Random& random, std::uint64_t cells, bool boxed) {
   return regions;
 }
 
-/// Bricks of side `side` that fill [-1, 1]³, with faces in shared planes.
+/// Returns count³ equal cubes that fill [-1, 1]³, with faces in shared planes.
 Regions bricks(int count) {
   Regions regions;
   const double side = 2.0 / count;

@@ -1,4 +1,4 @@
-// Frame files, state hashes and statistics.
+// Tests of frame files, state hashes and statistics.
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file name that is gone at the end of the test.
+/// Path of a file of this test, which is removed at the end.
 struct TemporaryFile {
   fs::path path =
       fs::temp_directory_path() / ("sunder-io-" + std::to_string(::getpid()) + "-" +
@@ -92,7 +92,7 @@ TEST(FrameFile, GivesBackWhatWasWritten) {
   EXPECT_NEAR(read->dust[0].opacity, 0.456f, 0.01f);
 }
 
-TEST(FrameFile, SaysWhatHappensInsideIfTheFrameDoes) {
+TEST(FrameFile, KeepsInspectionDataIfTheFrameHasThem) {
   const TemporaryFile file;
   Frame frame = sample_frame();
   write_frame(file.path, frame);
@@ -112,12 +112,12 @@ TEST(FrameFile, SaysWhatHappensInsideIfTheFrameDoes) {
   EXPECT_EQ(read->inspection->boxes[0].max_W, Vec3f(1, 2, 3));
   EXPECT_EQ(read->inspection->islands, inside->islands);
   EXPECT_EQ(read->inspection->stresses, inside->stresses);
-  inside->islands = {1};  // of a body that there is not
+  inside->islands = {1};  // a body that does not exist
   write_frame(file.path, frame);
   EXPECT_THROW(read_frame(file.path), InputError);
 }
 
-TEST(ParticleCodes, OfWhatWasDecodedAreTheSame) {
+TEST(ParticleCodes, EncodingADecodedParticleGivesTheSameCode) {
   Random random(3);
   const auto number = [&](double largest) {
     return static_cast<float>(random.uniform(-largest, largest));
@@ -141,7 +141,7 @@ TEST(ParticleCodes, OfWhatWasDecodedAreTheSame) {
   }
 }
 
-TEST(FrameFile, RefusesEveryTruncationAndCorruptionWithAWord) {
+TEST(FrameFile, RefusesEveryTruncationAndCorruptionWithAnInputError) {
   const TemporaryFile file;
   write_frame(file.path, sample_frame());
   const std::vector<std::byte> good = read_file(file.path);
@@ -211,7 +211,7 @@ TEST(Statistics, TakesQuantilesByNearestRank) {
   EXPECT_EQ(quantile(hundred, 0.95), 95);
 }
 
-TEST(Statistics, WarnsOfWhatWasLeftWholeAndOfLimits) {
+TEST(Statistics, WarnsOfConvexesLeftWholeAndOfLimits) {
   Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {}, {64, 1, 8}});
   auto frame = std::make_shared<Frame>();
   frame->report.volume_m3 = 2;
@@ -231,8 +231,8 @@ TEST(Statistics, WarnsOfWhatWasLeftWholeAndOfLimits) {
   EXPECT_NE(json["warnings"][1].get<std::string>().find("6 times"), std::string::npos);
 }
 
-// What the flows account for is no residual; what they do not is, in every frame anew.
-TEST(Statistics, SumsFlowsOfEnergyAndWhatTheyLeave) {
+// The residual is the change of energy that the flows do not account for, summed over frames.
+TEST(Statistics, SumsEnergyFlowsAndTheirResidual) {
   Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {}, {64, 1, 8}});
   auto frame = std::make_shared<Frame>();
   statistics.take(frame);

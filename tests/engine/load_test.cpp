@@ -1,4 +1,5 @@
-// The load stage, with scripted physics and fracture: who is judged when, and what follows.
+// Tests of the load stage, with scripted physics and breaker: when a solid's stress is evaluated,
+// and the breaks that result.
 #include <gtest/gtest.h>
 
 #include "tests/engine/scripted.h"
@@ -9,7 +10,7 @@ namespace {
 using testing::ScriptedBreaker;
 using testing::ScriptedPhysics;
 
-/// Two boxes on top of each other, the lower one anchored or neither.
+/// Returns two boxes on top of each other, with the lower one anchored if `anchored`.
 Compound two_boxes(bool anchored) {
   Compound compound;
   for (int i = 0; i < 2; ++i) {
@@ -33,14 +34,14 @@ Scene scene_of(const Compound& compound) {
   return scene;
 }
 
-/// A run whose breaker answers what the test says, and counts how often it is asked.
+/// Simulation whose breaker returns the test's answers, and records the last load evaluated.
 struct LoadRun {
   using Answer = std::function<StressResult(const Structure&, const LoadCase&)>;
 
   ScriptedPhysics* physics = nullptr;
-  int asked = 0;
-  Vec3 asked_force = Vec3::Zero(), asked_spin_R = Vec3::Zero();
-  std::vector<AppliedForce> asked_loads;
+  int evaluations = 0;
+  Vec3 evaluated_force = Vec3::Zero(), evaluated_spin_R = Vec3::Zero();
+  std::vector<AppliedForce> evaluated_loads;
   std::unique_ptr<Simulation> simulation;
 
   LoadRun(Scene scene, Answer answer) {
@@ -49,11 +50,11 @@ struct LoadRun {
     physics = owned.get();
     auto breaker = std::make_unique<ScriptedBreaker>(1.0);
     breaker->stressed = [this, answer](const Structure& structure, const LoadCase& load) {
-      ++asked;
-      asked_force.setZero();
-      asked_spin_R = load.spin_R;
-      asked_loads.assign(load.loads.begin(), load.loads.end());
-      for (const AppliedForce& one : load.loads) asked_force += one.force_N;
+      ++evaluations;
+      evaluated_force.setZero();
+      evaluated_spin_R = load.spin_R;
+      evaluated_loads.assign(load.loads.begin(), load.loads.end());
+      for (const AppliedForce& one : load.loads) evaluated_force += one.force_N;
       return answer(structure, load);
     };
     simulation =
@@ -63,49 +64,49 @@ struct LoadRun {
   void frames(int count) {
     for (int i = 0; i < count; ++i) simulation->next();
   }
-  /// A steady force on the top of the solid.
-  void press(double force_N) {
+  /// Applies a steady downward force to the top of the solid.
+  void apply_top_force(double force_N) {
     physics->loads = {{0, 1, Vec3(0, -force_N / 60, 0), Vec3(0.5, 2, 0.5)}};
   }
 };
 
-StressResult holds(const Structure&, const LoadCase&) {
+StressResult keep_whole(const Structure&, const LoadCase&) {
   StressResult answer;
   answer.settled = true;
   return answer;
 }
 
-StressResult parts(const Structure& structure, const LoadCase&) {
+StressResult split_in_parts(const Structure& structure, const LoadCase&) {
   StressResult answer;
   answer.settled = true;
   answer.edit = ScriptedBreaker::part(structure);
   return answer;
 }
 
-TEST(LoadStage, JudgesOwnWeightOnceAndNeverAgainWhileNothingChanges) {
-  LoadRun run(scene_of(two_boxes(true)), holds);
+TEST(LoadStage, EvaluatesSelfWeightOnceWhileNothingChanges) {
+  LoadRun run(scene_of(two_boxes(true)), keep_whole);
   run.frames(60);
-  EXPECT_EQ(run.asked, 1);
+  EXPECT_EQ(run.evaluations, 1);
 }
 
-TEST(LoadStage, JudgesAgainWhatIsPressedUntilThePressIsSteady) {
-  LoadRun run(scene_of(two_boxes(true)), holds);
+TEST(LoadStage, EvaluatesASolidAgainUntilItsLoadIsSteady) {
+  LoadRun run(scene_of(two_boxes(true)), keep_whole);
   run.frames(1);
-  run.press(50000);
+  run.apply_top_force(50000);
   run.frames(60);
-  const int asked = run.asked;
-  EXPECT_GT(asked, 1);
-  EXPECT_LT(asked, 30);
-  EXPECT_NEAR(run.asked_force.y(), -50000, 0.1 * 50000);
+  const int evaluations = run.evaluations;
+  EXPECT_GT(evaluations, 1);
+  EXPECT_LT(evaluations, 30);
+  EXPECT_NEAR(run.evaluated_force.y(), -50000, 0.1 * 50000);
   run.frames(60);
-  EXPECT_EQ(run.asked, asked);
+  EXPECT_EQ(run.evaluations, evaluations);
   run.physics->loads.clear();
   run.frames(120);
-  EXPECT_GT(run.asked, asked);  // and what is lifted off again
-  EXPECT_NEAR(run.asked_force.y(), 0, 0.1 * 50000);
+  EXPECT_GT(run.evaluations, evaluations);  // the load is removed
+  EXPECT_NEAR(run.evaluated_force.y(), 0, 0.1 * 50000);
 }
 
-TEST(LoadStage, ABlowIsSpreadOverTheTimeOfTheAverageWhateverTheStep) {
+TEST(LoadStage, AnImpulseIsSpreadOverTheAveragingTimeWhateverTheStep) {
   std::vector<double> most;
   for (const int steps : {1, 4}) {
     Scene scene = scene_of(two_boxes(true));
@@ -127,8 +128,8 @@ TEST(LoadStage, ABlowIsSpreadOverTheTimeOfTheAverageWhateverTheStep) {
   EXPECT_NEAR(most[1], most[0], 0.15 * most[0]);
 }
 
-TEST(LoadStage, LetsFallWhatIsOverloadedAndKeepsWhatIsHeld) {
-  LoadRun run(scene_of(two_boxes(true)), parts);
+TEST(LoadStage, OverloadedPartsFallAndAnchoredPartsStay) {
+  LoadRun run(scene_of(two_boxes(true)), split_in_parts);
   const FramePtr frame = run.simulation->next();
   ASSERT_EQ(frame->bodies.size(), 2u);
   EXPECT_TRUE(frame->bodies[0].is_static);
@@ -138,7 +139,7 @@ TEST(LoadStage, LetsFallWhatIsOverloadedAndKeepsWhatIsHeld) {
   EXPECT_NEAR(frame->report.mass_kg, 2000, 1e-9);
 }
 
-TEST(LoadStage, WhatLosesItsNeighbourShowsTheFaceThatItCovered) {
+TEST(LoadStage, RemovingANeighbourShowsTheFaceThatItCovered) {
   const auto indices_of = [](const Frame& frame, std::uint32_t body) {
     std::size_t sum = 0;
     for (const Instance& instance : frame.instances)
@@ -160,13 +161,13 @@ TEST(LoadStage, WhatLosesItsNeighbourShowsTheFaceThatItCovered) {
 }
 
 TEST(LoadStage, AJointLoadsTheConvexThatIsNearestToItsAnchor) {
-  LoadRun run(scene_of(two_boxes(true)), holds);
+  LoadRun run(scene_of(two_boxes(true)), keep_whole);
   const Vec3 pull(0, -5e4, 0), turn(3e4, 0, 0);
   for (const double y : {1.5, 2.4}) {  // inside and outside
     run.physics->pulls = {{0, pull / 60, Vec3(0.25, y, 0.5), turn / 60}};
     run.frames(120);
-    ASSERT_EQ(run.asked_loads.size(), 1u);
-    const AppliedForce& load = run.asked_loads[0];
+    ASSERT_EQ(run.evaluated_loads.size(), 1u);
+    const AppliedForce& load = run.evaluated_loads[0];
     EXPECT_EQ(load.convex, ConvexSlot(1));
     EXPECT_LT((load.force_N - pull).norm(), 0.1 * pull.norm());
     const Vec3 about = (Vec3(0.25, y, 0.5) - load.point_R).cross(pull) + turn;
@@ -174,38 +175,38 @@ TEST(LoadStage, AJointLoadsTheConvexThatIsNearestToItsAnchor) {
   }
   run.physics->pulls[0].point_W = Vec3(0.5, -0.1, 0.5);
   run.frames(120);
-  EXPECT_EQ(run.asked_loads[0].convex, ConvexSlot(0));
-  EXPECT_LT((run.asked_loads[0].force_N - pull).norm(), 0.1 * pull.norm());
+  EXPECT_EQ(run.evaluated_loads[0].convex, ConvexSlot(0));
+  EXPECT_LT((run.evaluated_loads[0].force_N - pull).norm(), 0.1 * pull.norm());
 }
 
-TEST(LoadStage, AWrenchWithoutAForceLoadsToo) {
-  LoadRun run(scene_of(two_boxes(true)), holds);
+TEST(LoadStage, ATorqueWithoutAForceIsALoadToo) {
+  LoadRun run(scene_of(two_boxes(true)), keep_whole);
   run.physics->pulls = {{0, Vec3::Zero(), Vec3(0.5, 1.5, 0.5), Vec3(0, 5e4 / 60, 0)}};
   run.frames(120);
-  ASSERT_EQ(run.asked_loads.size(), 1u);
-  EXPECT_NEAR(run.asked_loads[0].torque_Nm.y(), 5e4, 0.1 * 5e4);
+  ASSERT_EQ(run.evaluated_loads.size(), 1u);
+  EXPECT_NEAR(run.evaluated_loads[0].torque_Nm.y(), 5e4, 0.1 * 5e4);
 }
 
-// ρ ω² r² is the limit of 1 MPa at 667 s⁻², and a thirtieth of that is at 4.5 rad/s.
-TEST(LoadStage, JudgesSpinWhenItCanMatterAndAgainWhenItHasChanged) {
+// The stress ρ ω² r² is the limit of 1 MPa at ω² = 667 s⁻², and a thirtieth of it at 4.5 rad/s.
+TEST(LoadStage, EvaluatesSpinOnceItCanMatterAndAgainWhenItChanges) {
   Scene scene = scene_of(two_boxes(false));
   scene.gravity_W.setZero();
-  LoadRun run(scene, holds);
+  LoadRun run(scene, keep_whole);
   const auto spin = [&](double spin_rad_s) {
     run.physics->bodies[1].state.angular_velocity_W = Vec3(spin_rad_s, 0, 0);
     run.frames(10);
-    return run.asked;
+    return run.evaluations;
   };
   EXPECT_EQ(spin(4), 0);
   EXPECT_EQ(spin(20), 1);
-  EXPECT_EQ(run.asked_spin_R, Vec3(20, 0, 0));
+  EXPECT_EQ(run.evaluated_spin_R, Vec3(20, 0, 0));
   EXPECT_EQ(spin(20.9), 1);
   EXPECT_EQ(spin(-20.9), 1) << "the stress is equal for the opposite spin";
   EXPECT_EQ(spin(21.1), 2);
   EXPECT_EQ(spin(-21.1), 2);
 }
 
-TEST(LoadStage, OfSmallFragmentsOnlySpinIsLookedAt) {
+TEST(LoadStage, OnlySpinIsEvaluatedForSmallFragments) {
   Compound compound = two_boxes(true);
   compound.convexes.push_back(
       make_convex(make_box(Vec3(0, 2, 0), Vec3(1, 3, 1)), MaterialIndex(0)));
@@ -225,34 +226,34 @@ TEST(LoadStage, OfSmallFragmentsOnlySpinIsLookedAt) {
   ASSERT_EQ(run.physics->bodies.size(), 3u);  // with the ground
   EXPECT_TRUE(run.physics->bodies[1].desc.reports_load);
   EXPECT_FALSE(run.physics->bodies[2].desc.reports_load);
-  const int asked = run.asked;
+  const int evaluations = run.evaluations;
   run.physics->bodies[2].state.angular_velocity_W = Vec3(20, 0, 0);
   run.frames(10);
-  EXPECT_EQ(run.asked, asked + 1);
+  EXPECT_EQ(run.evaluations, evaluations + 1);
 }
 
-TEST(LoadStage, DoesNotAskAboutSingleConvexesNorAboutWhatNoLoadBreaks) {
+TEST(LoadStage, DoesNotEvaluateSingleConvexesNorUnbreakableMaterials) {
   Compound box = two_boxes(false);
   box.convexes.resize(1), box.anchored.resize(1), box.bonds.clear();
-  LoadRun moving(scene_of(box), parts);
-  moving.press(1e6);
+  LoadRun moving(scene_of(box), split_in_parts);
+  moving.apply_top_force(1e6);
   moving.frames(30);
-  EXPECT_EQ(moving.asked, 0);
+  EXPECT_EQ(moving.evaluations, 0);
   Scene scene = scene_of(two_boxes(true));
   scene.materials[0].tensile_Pa = 0;
-  LoadRun unbreakable(scene, parts);
+  LoadRun unbreakable(scene, split_in_parts);
   unbreakable.frames(30);
-  EXPECT_EQ(unbreakable.asked, 0);
+  EXPECT_EQ(unbreakable.evaluations, 0);
 }
 
-TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
+TEST(LoadStage, DefersEvaluationsOverTheBudgetAndDropsNone) {
   Scene scene = scene_of(two_boxes(true));
   scene.solids.push_back(scene.solids[0]);
   scene.limits.load_work_a_frame = 10;
   std::vector<std::uint64_t> allowed;
   LoadRun run(scene, [&](const Structure& structure, const LoadCase& load) {
     allowed.push_back(load.most_work);
-    StressResult answer = parts(structure, load);
+    StressResult answer = split_in_parts(structure, load);
     answer.work = load.most_work;
     return answer;
   });
@@ -265,7 +266,7 @@ TEST(LoadStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 10}));
 }
 
-TEST(LoadStage, AFrameMaySpendWhatTheOneBeforeSaved) {
+TEST(LoadStage, AFrameMayUseTheBudgetThatTheFrameBeforeLeft) {
   Scene scene = scene_of(two_boxes(true));
   scene.limits.load_work_a_frame = 10;
   std::vector<std::uint64_t> allowed;
@@ -277,13 +278,13 @@ TEST(LoadStage, AFrameMaySpendWhatTheOneBeforeSaved) {
     return answer;
   });
   run.frames(5);
-  run.press(1e6);
+  run.apply_top_force(1e6);
   run.frames(1);
   EXPECT_EQ(allowed, (std::vector<std::uint64_t>{10, 20}))
       << "the unused budget of one frame, and no more";
 }
 
-TEST(LoadStage, GivesTheMemoryBack) {
+TEST(LoadStage, PassesTheStressCacheBack) {
   struct Marked final : StressCache {};
   const auto memory = std::make_shared<const Marked>();
   StressCachePtr seen;
@@ -296,7 +297,7 @@ TEST(LoadStage, GivesTheMemoryBack) {
   });
   run.frames(3);
   EXPECT_EQ(seen, memory);
-  EXPECT_EQ(run.asked, 2);
+  EXPECT_EQ(run.evaluations, 2);
 }
 
 }  // namespace

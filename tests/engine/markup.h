@@ -1,4 +1,4 @@
-// Whether text is well-formed: every tag closed, every attribute quoted, every & an entity.
+// A check that HTML or SVG is well-formed: tags closed, attributes quoted, each & an entity.
 #pragma once
 
 #include <set>
@@ -7,8 +7,8 @@
 
 namespace sunder::tests {
 
-/// What is wrong with an HTML page or an SVG picture; empty if nothing is. Within <style> and
-/// <script>, everything goes.
+/// Returns the first mistake in an HTML page or an SVG picture, or an empty string. The contents of
+/// <style> and <script> are not checked.
 inline std::string markup_mistake(const std::string& text) {
   static const std::set<std::string> kWithoutEnd = {"!doctype", "meta", "img", "br", "input"};
   std::vector<std::string> open;

@@ -1,4 +1,4 @@
-// Pages and plots are well-formed whatever is put on them, and say what they were given.
+// Tests of HTML pages and SVG plots: well-formed for any content, and complete.
 #include "engine/io/page.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using tests::markup_mistake;
 
-const std::string kNasty = "a<b> & \"c\" 'd' </svg>";
+const std::string kMarkupText = "a<b> & \"c\" 'd' </svg>";
 
 std::size_t count(const std::string& text, const std::string& what) {
   std::size_t n = 0;
@@ -31,17 +31,17 @@ TEST(Markup, TheCheckFindsMistakes) {
   EXPECT_EQ(markup_mistake("<!doctype html><p title=\">\">1 &lt; 2<br></p><svg/>"), "");
 }
 
-TEST(Page, TextCannotLeaveItsPlace) {
+TEST(Page, TextIsEscaped) {
   EXPECT_EQ(escaped("a<b & \"c\" 'd'"), "a&lt;b &amp; &quot;c&quot; &#39;d&#39;");
-  const std::vector<Cell> rows[] = {{{kNasty, true, kNasty}, {"plain"}}};
-  const std::string page = html_page({kNasty, html_table({kNasty}, rows)});
+  const std::vector<Cell> rows[] = {{{kMarkupText, true, kMarkupText}, {"plain"}}};
+  const std::string page = html_page({kMarkupText, html_table({kMarkupText}, rows)});
   EXPECT_EQ(markup_mistake(page), "");
   EXPECT_EQ(count(page, "</svg>"), 0u);
   EXPECT_EQ(count(page, "<td>plain</td>"), 1u);
   EXPECT_EQ(count(page, "class=\"over\""), 1u);
 }
 
-TEST(Page, StyleAndScriptStandAsTheyAre) {
+TEST(Page, StyleAndScriptAreNotEscaped) {
   const std::string page =
       html_page({"t", "<p>body</p>\n", "p { color: red; }", "if (1 < 2) f();\n"});
   EXPECT_EQ(markup_mistake(page), "");
@@ -51,7 +51,7 @@ TEST(Page, StyleAndScriptStandAsTheyAre) {
   EXPECT_EQ(count(html_page({"t", ""}), "<script>"), 0u);
 }
 
-TEST(Page, ImagesAreInsideInBase64) {
+TEST(Page, ImagesAreEmbeddedAsBase64) {
   const std::uint8_t bytes[] = {'M', 'a', 'n', 'y', 0xff};
   EXPECT_NE(embedded_image("image/png", bytes).find("\"data:image/png;base64,TWFuef8=\""),
             std::string::npos);
@@ -68,7 +68,7 @@ TEST(Page, NumbersAreRounded) {
 
 const Axes kLogLog = {"title", {"cost", true}, {"error", true}};
 
-/// The places of the dots, in order.
+/// Returns the centres of the plot's circles, in order.
 std::vector<std::pair<double, double>> dots(const std::string& svg) {
   std::vector<std::pair<double, double>> places;
   const std::string start = "<circle cx=\"";
@@ -83,12 +83,14 @@ std::vector<std::pair<double, double>> dots(const std::string& svg) {
 TEST(Plot, IsWellFormedWhateverItIsGiven) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Curve curves[] = {{kNasty, {{1, 2, kNasty, kNasty}, {0, -1}, {infinity, nan}}, true, true},
-                          {"empty", {}}};
-  const Bar bars[] = {{kNasty, 3}, {"zero", 0}, {"infinite", infinity}};
+  const Curve curves[] = {
+      {kMarkupText, {{1, 2, kMarkupText, kMarkupText}, {0, -1}, {infinity, nan}}, true, true},
+      {"empty", {}}};
+  const Bar bars[] = {{kMarkupText, 3}, {"zero", 0}, {"infinite", infinity}};
   for (const std::string& svg :
-       {svg_curves(kLogLog, curves), svg_curves({kNasty, {kNasty}, {kNasty}}, curves),
-        svg_curves(kLogLog, {}), svg_bars({"t", {"x"}, {"y"}}, bars), svg_bars({}, {})}) {
+       {svg_curves(kLogLog, curves),
+        svg_curves({kMarkupText, {kMarkupText}, {kMarkupText}}, curves), svg_curves(kLogLog, {}),
+        svg_bars({"t", {"x"}, {"y"}}, bars), svg_bars({}, {})}) {
     EXPECT_EQ(markup_mistake(svg), "") << svg;
     EXPECT_EQ(count(svg, "nan"), 0u) << svg;
     EXPECT_EQ(count(svg, "\"inf"), 0u) << svg;
@@ -104,7 +106,7 @@ TEST(Plot, EqualRatiosAreEquallyFarOnLogarithmicAxes) {
   EXPECT_GT(places[1].second, places[0].second) << "smaller values are lower";
 }
 
-TEST(Plot, WhatHasNoPlaceIsAtTheEndOfItsAxis) {
+TEST(Plot, ValuesOutsideALogarithmicAxisAreDrawnAtItsEnds) {
   const double infinity = std::numeric_limits<double>::infinity();
   const Curve curves[] = {{"", {{1, 1}, {10, 10}, {5, infinity}, {5, 0}}, false, true}};
   const auto places = dots(svg_curves(kLogLog, curves));

@@ -1,4 +1,4 @@
-// What a mesh's file paints is in frame files and takes.
+// Tests that frame files and recordings keep the appearances (colours, textures) of mesh files.
 #include <unistd.h>
 
 #include <filesystem>
@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PaintIo : public ::testing::Test {
+class AppearanceIo : public ::testing::Test {
  protected:
-  ~PaintIo() override { fs::remove(path_); }
+  ~AppearanceIo() override { fs::remove(path_); }
 
   const fs::path path_ = fs::temp_directory_path() / ("sunder-paint-" + std::to_string(::getpid()));
 };
@@ -28,9 +28,9 @@ std::shared_ptr<const std::vector<std::byte>> picture(std::uint8_t first) {
       std::vector{std::byte{first}, std::byte{2}, std::byte{0}});
 }
 
-/// A ball that no file paints, and one with a picture, two of whose vertices are of its first and
-/// last paint.
-std::shared_ptr<Frame> painted_frame() {
+/// Returns a frame of a ball without an appearance, and of a ball with texture coordinates of which
+/// one vertex has the first and one the fourth appearance.
+std::shared_ptr<Frame> textured_frame() {
   auto frame = std::make_shared<Frame>();
   frame->materials = std::make_shared<const std::vector<Material>>(1);
   const auto shared = picture(7);
@@ -90,14 +90,14 @@ void expect_same(const Frame& read, const Frame& frame) {
     EXPECT_EQ(got.vertices[v].look, given.vertices[v].look);
 }
 
-TEST_F(PaintIo, FrameFilesKeepPaintsPicturesAndWhereTheyAre) {
-  const auto frame = painted_frame();
+TEST_F(AppearanceIo, FrameFilesKeepAppearancesTexturesAndTextureCoordinates) {
+  const auto frame = textured_frame();
   write_frame(path_, *frame);
   expect_same(*read_frame(path_), *frame);
 }
 
-TEST_F(PaintIo, TakesKeepThemAlso) {
-  const auto frame = painted_frame();
+TEST_F(AppearanceIo, RecordingsKeepAppearancesTexturesAndTextureCoordinates) {
+  const auto frame = textured_frame();
   {
     RecordingWriter writer(path_);
     writer.take(frame);
@@ -109,15 +109,15 @@ TEST_F(PaintIo, TakesKeepThemAlso) {
   expect_same(*read, *frame);
 }
 
-TEST_F(PaintIo, APaintWithoutReliefOrGlossTakesTheBytesItAlwaysDid) {
+TEST_F(AppearanceIo, AnAppearanceWithoutNormalMapAndRoughnessHasTheBytesOfEarlierVersions) {
   ByteWriter out;
   put(out, std::vector<Appearance>{{Vec3f(1, 0.5f, 0.25f), picture(7), true},
                                    {Vec3f(0, 0, 1), nullptr}});
   EXPECT_EQ(out.bytes.size(), 4 + (12 + 1 + 4 + 4 + 3) + (12 + 1 + 4u));
 }
 
-TEST_F(PaintIo, AVertexOfAPaintThatIsNotThereIsRefused) {
-  const auto frame = painted_frame();
+TEST_F(AppearanceIo, AVertexOfAMissingAppearanceIsRefused) {
+  const auto frame = textured_frame();
   frame->paints = std::make_shared<const std::vector<Appearance>>(1);
   write_frame(path_, *frame);
   EXPECT_THROW(read_frame(path_), InputError);

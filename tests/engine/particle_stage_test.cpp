@@ -1,4 +1,4 @@
-// What breaks hand to the particles, and what frames show of them.
+// Tests of the particle stage: emissions of breaks, and particles in frames.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 using testing::ScriptedBreaker;
 using testing::ScriptedPhysics;
 
-/// Notes what it is told; shows one piece of debris at the end of every advance.
+/// Records the emissions and obstacles it gets; has one piece of debris after each advance.
 class RecordingParticles final : public Particles {
  public:
   struct Face {
@@ -61,7 +61,7 @@ class RecordingParticles final : public Particles {
   std::vector<MaterialIndex> material{MaterialIndex(0)};
 };
 
-/// A box that owns the visual mesh of another one, half as wide, whose lowest face in x is a cap.
+/// Returns a unit box with a visual mesh half as wide in z, whose face at the lowest x is a cap.
 ConvexPtr box_with_a_half_cap(const Vec3& min) {
   ConvexPolyhedron polyhedron = make_box(min, min + Vec3::Ones());
   auto visual = std::make_shared<PolygonMesh>(polygon_mesh(make_box(min, min + Vec3(1, 1, 0.5))));
@@ -74,37 +74,38 @@ ConvexPtr box_with_a_half_cap(const Vec3& min) {
   return make_convex(std::move(polyhedron), MaterialIndex(0), std::move(visual));
 }
 
-/// A ball flies towards a body, which it meets after `late` steps; in the first solve, what the
-/// world has by then is kicked.
-class KickingPhysics final : public ScriptedPhysics {
+/// Physics in which a ball touches a body after `delay_steps` steps, and in which the first solve
+/// adds `change_m_s` to the velocity of every body.
+class PushingPhysics final : public ScriptedPhysics {
  public:
-  explicit KickingPhysics(const Vec3& kick_m_s, int late = 0)
-      : ScriptedPhysics([late](const ScriptedPhysics& physics, int collides) {
-          if (collides < late) return std::vector<SpeculativeContact>{};
+  explicit PushingPhysics(const Vec3& change_m_s, int delay_steps = 0)
+      : ScriptedPhysics([delay_steps](const ScriptedPhysics& physics, int collides) {
+          if (collides < delay_steps) return std::vector<SpeculativeContact>{};
           return physics.approach(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
         }),
-        kick_m_s_(kick_m_s) {}
+        change_m_s_(change_m_s) {}
 
   SolveReport solve(double dt_s, int substeps) override {
-    for (Body& body : bodies) body.state.velocity_W += kick_m_s_;
-    kick_m_s_.setZero();
+    for (Body& body : bodies) body.state.velocity_W += change_m_s_;
+    change_m_s_.setZero();
     return ScriptedPhysics::solve(dt_s, substeps);
   }
 
  private:
-  Vec3 kick_m_s_;
+  Vec3 change_m_s_;
 };
 
-/// Two unit boxes of stone that fly along z, and a ball that parts them in the first step.
+/// Simulation of two unit boxes of stone, one solid, that move along z, and of a ball that
+/// separates them after `delay_steps` steps.
 struct ParticleRun {
   explicit ParticleRun(double dt_s, double smallest_piece_m3 = 0, double particles_per_m2 = 10,
-                       bool visual = false, const Vec3& kick_m_s = Vec3::Zero(), int late = 0,
-                       const Vec3& spin_rad_s = Vec3::Zero()) {
+                       bool visual = false, const Vec3& change_m_s = Vec3::Zero(),
+                       int delay_steps = 0, const Vec3& spin_rad_s = Vec3::Zero()) {
     Material stone;
     stone.density_kg_m3 = 1000;
     stone.pattern.kind = PatternSpec::Kind::kVoronoi;
     stone.smallest_piece_m3 = smallest_piece_m3;
-    stone.smallest_break_m3 = 0;  // what becomes chips breaks, too
+    stone.smallest_break_m3 = 0;  // pieces that become chips break, too
     stone.crumbling.particles_per_m2 = particles_per_m2;
     Material steel;
     Scene scene;
@@ -127,7 +128,7 @@ struct ParticleRun {
     auto owned = std::make_unique<RecordingParticles>();
     particles = owned.get();
     simulation = std::make_unique<Simulation>(
-        std::move(scene), std::make_unique<KickingPhysics>(kick_m_s, late),
+        std::move(scene), std::make_unique<PushingPhysics>(change_m_s, delay_steps),
         std::make_unique<ScriptedBreaker>(1.0), std::move(owned));
     simulation->next();
   }
@@ -135,7 +136,7 @@ struct ParticleRun {
   std::unique_ptr<Simulation> simulation;
 };
 
-TEST(ParticleStage, IsToldOfEveryFaceThatABreakLaidBare) {
+TEST(ParticleStage, EmitsFromEveryFaceThatABreakExposes) {
   ParticleRun run(1.0 / 60);
   const FramePtr frame = run.simulation->next();
   ASSERT_EQ(frame->breaks.size(), 1u);
@@ -152,7 +153,7 @@ TEST(ParticleStage, IsToldOfEveryFaceThatABreakLaidBare) {
   EXPECT_NEAR(face.emission.motion(face.corners_W[0]).z(), 2, 1e-9);
 }
 
-TEST(ParticleStage, FacesMoveAsTheirPiecesDoOnceTheBlowHasDrivenThemApart) {
+TEST(ParticleStage, FacesMoveWithTheirPiecesAfterTheImpactSeparatesThem) {
   ParticleRun run(1.0 / 60, 0, 10, false, Vec3(0, 3, 4));
   run.simulation->next();
   ASSERT_EQ(run.particles->faces.size(), 2u);
@@ -168,8 +169,8 @@ TEST(ParticleStage, FacesMoveAsTheirPiecesDoOnceTheBlowHasDrivenThemApart) {
       << "faces start at their place at the beginning of the frame";
 }
 
-TEST(ParticleStage, PiecesThatGoOnAsTheirSolidSpunDoNotPart) {
-  // Without a blow that would have driven them: what breaks takes no energy and pushes nothing.
+TEST(ParticleStage, PiecesThatKeepTheSpinOfTheirSolidHaveNoSeparationSpeed) {
+  // No impact has pushed the pieces: the break takes no energy and applies no impulse.
   ParticleRun run(1.0 / 60, 0, 10, false, Vec3::Zero(), 3, Vec3(2, 0, 0));
   for (int i = 0; i < 4; ++i) run.simulation->next();
   ASSERT_EQ(run.particles->faces.size(), 2u);
@@ -179,8 +180,8 @@ TEST(ParticleStage, PiecesThatGoOnAsTheirSolidSpunDoNotPart) {
   }
 }
 
-TEST(ParticleStage, FacesOfWhatSpinsAreWhereItWas) {
-  // Within a frame it turns ten times: a face that flew straight on would be as far away as that.
+TEST(ParticleStage, FacesOfASpinningSolidStartAtItsPoseWhenTheFrameBegan) {
+  // The solid turns about ten times in a frame: a face moved in a straight line would be far away.
   ParticleRun run(1.0 / 60, 0, 10, false, Vec3::Zero(), 3, Vec3(3700, 0, 0));
   for (int i = 0; i < 4; ++i) run.simulation->next();
   ASSERT_EQ(run.particles->faces.size(), 2u);
@@ -194,7 +195,7 @@ TEST(ParticleStage, FacesOfWhatSpinsAreWhereItWas) {
   }
 }
 
-TEST(ParticleStage, AVisualMeshCrumblesWhereItsCapsAre) {
+TEST(ParticleStage, AVisualMeshEmitsFromItsCaps) {
   ParticleRun run(1.0 / 60, 0, 10, true);
   run.simulation->next();
   ASSERT_EQ(run.particles->faces.size(), 4u) << "two triangles a cap";
@@ -207,7 +208,7 @@ TEST(ParticleStage, AVisualMeshCrumblesWhereItsCapsAre) {
   EXPECT_NEAR(area_m2, 2 * 0.5, 1e-9);
 }
 
-TEST(ParticleStage, MovesOnceAFrameFromWhereTheFrameBegan) {
+TEST(ParticleStage, AdvancesOnceAFrameFromItsBeginning) {
   ParticleRun run(1.0 / 240);
   run.simulation->next();
   ASSERT_EQ(run.particles->steps_s.size(), 1u);
@@ -219,7 +220,7 @@ TEST(ParticleStage, MovesOnceAFrameFromWhereTheFrameBegan) {
       << "the place at the beginning of the frame, whichever step broke the solid";
 }
 
-TEST(ParticleStage, SeesEveryBodyAndTheGround) {
+TEST(ParticleStage, GetsEveryBodyAndTheGroundAsObstacles) {
   ParticleRun run(1.0 / 60);
   run.simulation->next();
   ASSERT_EQ(run.particles->bodies.size(), 3u) << "the ball and two pieces";
@@ -242,7 +243,7 @@ TEST(ParticleStage, PiecesTooSmallForBodiesBecomeChipsAndTheirMassStays) {
   EXPECT_NEAR(frame->report.mass_kg, bodies.simulation->next()->report.mass_kg, 1e-9);
 }
 
-/// Two unit boxes of stone that fly along z, parted by a blast beside them.
+/// Simulation of two unit boxes of stone that move along z, separated by a blast beside them.
 struct BlastRun {
   explicit BlastRun(double smallest_piece_m3) {
     Material stone;
@@ -278,7 +279,7 @@ struct BlastRun {
   std::unique_ptr<Simulation> simulation;
 };
 
-TEST(ParticleStage, WhatABlastLaysBareFliesAsItPushesThePieces) {
+TEST(ParticleStage, FacesThatABlastExposesMoveWithTheirPieces) {
   BlastRun run(0);
   ASSERT_EQ(run.particles->faces.size(), 2u);
   for (const RecordingParticles::Face& face : run.particles->faces) {
@@ -310,7 +311,7 @@ TEST(ParticleStage, WithNothingToMoveDoesNothing) {
   EXPECT_TRUE(run.particles->steps_s.empty());
 }
 
-TEST(ParticleStage, AFrameShowsWhatIsAliveAndCountsWhatFoundNoRoom) {
+TEST(ParticleStage, AFrameShowsParticlesAndCountsThoseOverTheLimit) {
   ParticleRun run(1.0 / 60);
   FramePtr frame = run.simulation->next();
   ASSERT_EQ(frame->debris.size(), 1u);

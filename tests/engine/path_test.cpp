@@ -1,4 +1,4 @@
-// Paths by keyframes.
+// Tests of paths by keyframes.
 #include "engine/model/path.h"
 
 #include <gtest/gtest.h>
@@ -6,10 +6,11 @@
 namespace sunder {
 namespace {
 
-constexpr double kPart_s = 1e-5;
+constexpr double kDifference_s = 1e-5;
 
 Vec3 speed(const Path& path, double time_s) {
-  return (path.at(time_s + kPart_s).shift_W - path.at(time_s - kPart_s).shift_W) / (2 * kPart_s);
+  return (path.at(time_s + kDifference_s).shift_W - path.at(time_s - kDifference_s).shift_W) /
+         (2 * kDifference_s);
 }
 
 Path zigzag() {
@@ -20,7 +21,7 @@ Path zigzag() {
   return path;
 }
 
-TEST(Path, GoesThroughItsKeysFromWhereItStoodAndStays) {
+TEST(Path, GoesFromRestThroughItsKeysAndStaysAtTheLast) {
   for (const bool smooth : {true, false}) {
     Path path = zigzag();
     path.smooth = smooth;
@@ -34,9 +35,9 @@ TEST(Path, GoesThroughItsKeysFromWhereItStoodAndStays) {
   EXPECT_EQ(Path().at(3).shift_W, Vec3::Zero()) << "a path without keys stays at zero";
 }
 
-TEST(Path, ASmoothOneHasNoJumpOfVelocityAndOvershootsNothing) {
+TEST(Path, ASmoothPathHasNoJumpOfVelocityAndNoOvershoot) {
   const Path path = zigzag();
-  Vec3 before = speed(path, kPart_s);
+  Vec3 before = speed(path, kDifference_s);
   EXPECT_LT(before.norm(), 1e-3) << "from rest";
   for (double t = 0.002; t < 4.1; t += 0.002) {
     const Vec3 now = speed(path, t), at = path.at(t).shift_W;
@@ -47,7 +48,7 @@ TEST(Path, ASmoothOneHasNoJumpOfVelocityAndOvershootsNothing) {
   EXPECT_LT(before.norm(), 1e-3) << "to rest";
 }
 
-TEST(Path, WhatGoesEquallyFastFromKeyToKeyGoesSoBetween) {
+TEST(Path, EqualSpeedsBetweenKeysGiveAConstantSpeed) {
   Path path;
   path.keys = {{0.5, Vec3(1, 0, 0)}, {1, Vec3(3, 0, 0)}, {2, Vec3(7, 0, 0)}, {3, Vec3(8, 0, 0)}};
   for (const double t : {0.6, 0.9}) EXPECT_GT(speed(path, t).x(), 2) << t;
@@ -59,7 +60,7 @@ TEST(Path, WhatGoesEquallyFastFromKeyToKeyGoesSoBetween) {
   EXPECT_NEAR(speed(path, 1.5).x(), 4, 1e-6);
 }
 
-TEST(Path, ALoopGoesOnAsItBegan) {
+TEST(Path, ALoopRepeatsWithoutAJump) {
   Path drum;
   drum.loops = true;
   drum.keys = {{1, Vec3::Zero(), Vec3(0, 3.14, 0)}, {2, Vec3::Zero(), Vec3(0, 6.28, 0)}};

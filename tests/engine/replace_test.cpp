@@ -1,4 +1,4 @@
-// What a break does to an actor, edit by edit: what stands, and what comes off.
+// Tests of applying a break's edit to an actor: the remainder, and the new pieces.
 #include "engine/world/actors/replace.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::ScriptedPhysics;
 
-/// A column of four boxes of a cubic metre, held at both ends.
+/// Returns a column of four unit boxes, anchored at both ends.
 Compound column() {
   Compound compound;
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -30,7 +30,7 @@ struct Column {
   explicit Column(const Compound& compound = column())
       : Column(compound, std::make_unique<ScriptedPhysics>(nullptr)) {}
   Actor& actor(std::size_t i) { return world.actors[i]; }
-  /// Takes off the two upper boxes, which hold on to each other.
+  /// Removes the two upper boxes, which stay bonded to each other.
   void break_in_two() {
     const Structure& structure = actor(0).structure;
     BreakEdit edit;
@@ -64,13 +64,13 @@ struct Column {
   }
 };
 
-TEST(CarryOut, LeavesStandingWhatIsLikeNewOfItsSize) {
+TEST(ApplyBreak, TheRemainderEqualsANewActorOfItsConvexes) {
   Column column;
-  Actor& stands = column.actor(0);
-  const double whole_J = stands.least_J;
-  stands.least_J = 1e6;  // as after a plan that asked for more
-  stands.stress.settled = true;
-  stands.stress.mean_forces = {{ConvexSlot(1)}, {ConvexSlot(3)}};
+  Actor& remainder = column.actor(0);
+  const double whole_J = remainder.least_J;
+  remainder.least_J = 1e6;  // the value after a plan that needed more energy
+  remainder.stress.settled = true;
+  remainder.stress.mean_forces = {{ConvexSlot(1)}, {ConvexSlot(3)}};
   column.break_in_two();
   ASSERT_EQ(column.world.actors.size(), 2u);
   const Actor& left = column.actor(0);
@@ -85,7 +85,7 @@ TEST(CarryOut, LeavesStandingWhatIsLikeNewOfItsSize) {
   EXPECT_EQ(column.physics->bodies[0].desc.shapes.size(), 2u);
 }
 
-/// Three boxes along x that overlap, 3 m³ together; the last one is held.
+/// Returns three overlapping boxes along x, 3 m³ together; the last one is anchored.
 Compound overlapping() {
   Compound compound;
   const double low[] = {0, 1, 0.5}, high[] = {2, 3, 1.5};
@@ -101,7 +101,7 @@ Compound overlapping() {
   return compound;
 }
 
-TEST(CarryOut, TakesAnOverlapOffOnceHoweverManyOfThoseThatShareItGo) {
+TEST(ApplyBreak, SubtractsAnOverlapOnceHoweverManyOfItsConvexesAreRemoved) {
   Column column(overlapping());
   ASSERT_NEAR(column.actor(0).volume_m3, 3, 1e-12);
   BreakEdit edit;
@@ -115,7 +115,7 @@ TEST(CarryOut, TakesAnOverlapOffOnceHoweverManyOfThoseThatShareItGo) {
   EXPECT_NEAR(column.actor(1).volume_m3, 3, 1e-12);
 }
 
-TEST(CarryOut, MakesPiecesThatKnowWhatTheyCameOf) {
+TEST(ApplyBreak, PiecesKeepTheStressCacheAndRootKeyOfTheirActor) {
   struct Marked final : StressCache {};
   Column column;
   const auto memory = std::make_shared<const Marked>();

@@ -1,4 +1,4 @@
-// What is made by hand and cannot be run is refused with its name, before anything relies on it.
+// Tests of check_scene(): an invalid scene is refused with a message that names the member.
 #include "engine/model/checks/scene_check.h"
 
 #include <functional>
@@ -34,7 +34,7 @@ Scene good() {
   return scene;
 }
 
-TEST(SceneCheck, AcceptsWhatCanBeRun) { EXPECT_NO_THROW(check_scene(good())); }
+TEST(SceneCheck, AcceptsAValidScene) { EXPECT_NO_THROW(check_scene(good())); }
 
 TEST(SceneCheck, NamesWhatIsWrong) {
   const std::pair<const char*, std::function<void(Scene&)>> mistakes[] = {
@@ -123,7 +123,7 @@ TEST(SceneCheck, NamesWhatIsWrong) {
       {"removals[0] removes nothing",
        [](Scene& s) {
          s.removals[0].roots.clear();
-         s.removals[0].anchors_W = {Vec3(-1, -1, -1), Vec3(2, 2, 2)};  // nothing is anchored
+         s.removals[0].anchors_W = {Vec3(-1, -1, -1), Vec3(2, 2, 2)};  // no convex is anchored
        }},
       {"drives[0] has no velocity", [](Scene& s) { s.drives.resize(1); }},
       {"drives[0].until_s",
@@ -163,7 +163,7 @@ TEST(SceneCheck, NamesWhatIsWrong) {
   }
 }
 
-TEST(SceneCheck, BoxesAndPrismsThatAreNoneAreRefused) {
+TEST(SceneCheck, InvalidBoxesAndPrismsAreRefused) {
   EXPECT_THROW(make_box(Vec3::Ones(), Vec3::Zero()), InputError);
   EXPECT_THROW(make_box(Vec3::Zero(), Vec3(1, kNaN, 1)), InputError);
   const Vec2 corners[] = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};

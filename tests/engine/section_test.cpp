@@ -1,4 +1,4 @@
-// What a section that flows bears, beside closed forms.
+// Tests of the strength of a yielding section against closed forms.
 #include "engine/model/section.h"
 
 #include <cmath>
@@ -10,13 +10,13 @@
 namespace sunder {
 namespace {
 
-/// Of a rectangle, b across and h high, that flows at 1 Pa, along x.
+/// Returns the strength of a rectangle b wide and h high, normal to x, of yield stress 1 Pa.
 SectionStrength rectangle(double b, double h) {
   return {Mat3::Identity(), b * h, b * h / std::sqrt(3),
           Vec3(0.2 * b * b * h, b * b * h / 4, b * h * h / 4)};
 }
 
-TEST(Section, EachLoadAloneTakesItsShare) {
+TEST(Section, EachForceOrMomentAloneGivesItsRatioToTheStrength) {
   const SectionStrength s = rectangle(0.2, 0.3);
   EXPECT_NEAR(utilisation(s, {Vec3(0.7 * s.axial_N, 0, 0), Vec3::Zero()}), 0.7, 1e-12);
   EXPECT_NEAR(utilisation(s, {Vec3(-0.7 * s.axial_N, 0, 0), Vec3::Zero()}), 0.7, 1e-12);
@@ -29,19 +29,19 @@ TEST(Section, EachLoadAloneTakesItsShare) {
   EXPECT_EQ(utilisation(s, {}), 0);
 }
 
-TEST(Section, BentUnderAxialForceARectangleFlowsWhereTheTheorySays) {
-  // A band of the height n·h in the middle bears the axial force, the rest the moment.
+TEST(Section, ARectangleUnderMomentAndAxialForceYieldsAsInTheory) {
+  // A band of height n·h in the middle bears the axial force, and the rest bears the moment.
   const double b = 0.2, h = 0.3;
   for (const double n : {-0.8, -0.3, 0.1, 0.5, 0.95}) {
     const double moment = b * h * h / 4 * (1 - n * n);
     const Wrench wrench{Vec3(n * b * h, 0, 0), Vec3(0, 0, moment)};
     EXPECT_NEAR(utilisation(rectangle(b, h), wrench), 1, 1e-12) << n;
-    // It is a load factor: twice the load, twice as much.
+    // Utilisation is a load factor: it doubles with the load.
     EXPECT_NEAR(utilisation(rectangle(b, h), {2 * wrench.force_N, 2 * wrench.moment_Nm}), 2, 1e-12);
   }
 }
 
-TEST(Section, ItsAxesMayLieAnyHow) {
+TEST(Section, UtilisationDoesNotDependOnOrientation) {
   SectionStrength s = rectangle(0.2, 0.3);
   const Wrench wrench{Vec3(0.01, 0.02, 0.003), Vec3(1e-3, -2e-3, 3e-3)};
   const double before = utilisation(s, wrench);
@@ -50,7 +50,7 @@ TEST(Section, ItsAxesMayLieAnyHow) {
   EXPECT_NEAR(utilisation(s, {turn * wrench.force_N, turn * wrench.moment_Nm}), before, 1e-12);
 }
 
-TEST(Material, WhatFlowsIsWeakestThere) {
+TEST(Material, TheYieldStressIsTheLowestStressLimit) {
   Material material;
   EXPECT_FALSE(material.breaks_by_load());
   material.yield_Pa = 2e8;

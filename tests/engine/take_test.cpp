@@ -1,5 +1,5 @@
-// Takes: what is recorded is played, from anywhere; damage is met with a word and the readable
-// part; a run that differs is told where.
+// Tests of recordings: a recording plays from any frame; a damaged recording plays its readable
+// part and reports the damage; a verified run that differs is reported with the frame and body.
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Take : public ::testing::Test {
+class Recording : public ::testing::Test {
  protected:
-  ~Take() override { fs::remove(path_); }
+  ~Recording() override { fs::remove(path_); }
 
-  /// A run of bodies that fly and come and go, with debris and dust.
+  /// Source of frames of moving bodies that appear and disappear, with debris and dust.
   class Run final : public FrameSource {
    public:
     explicit Run(int frames, double nudge_m = 0, int nudged_frame = -1)
@@ -120,8 +120,8 @@ class Take : public ::testing::Test {
                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".take");
 };
 
-/// What of two frames must agree; `what` says where.
-void expect_shown_alike(const Frame& played, const Frame& run, const std::string& what) {
+/// Expects that two frames are equal up to the precision of a recording; `what` is for messages.
+void expect_equal_frames(const Frame& played, const Frame& run, const std::string& what) {
   ASSERT_EQ(played.index, run.index) << what;
   EXPECT_EQ(played.time_s, run.time_s);
   EXPECT_EQ(*played.names, *run.names);
@@ -169,7 +169,7 @@ void expect_shown_alike(const Frame& played, const Frame& run, const std::string
   EXPECT_EQ(played.report.joints_lost, run.report.joints_lost);
 }
 
-TEST_F(Take, PlaysWhatWasRecorded) {
+TEST_F(Recording, PlaysWhatWasRecorded) {
   record(150);
   RecordingReader take(path_);
   EXPECT_EQ(take.frames(), 150u);
@@ -177,14 +177,14 @@ TEST_F(Take, PlaysWhatWasRecorded) {
   Run run(150);
   int frames = 0;
   for (FramePtr played = take.next(); played; played = take.next(), ++frames) {
-    expect_shown_alike(*played, *run.next(), "frame " + std::to_string(frames));
+    expect_equal_frames(*played, *run.next(), "frame " + std::to_string(frames));
     if (HasFatalFailure()) return;
   }
   EXPECT_EQ(frames, 150);
   EXPECT_EQ(take.damage(), "");
 }
 
-TEST_F(Take, PlaysFromAnyFrameOn) {
+TEST_F(Recording, PlaysFromAnyFrameOn) {
   record(300);
   RecordingReader take(path_);
   std::vector<FramePtr> run;
@@ -195,7 +195,7 @@ TEST_F(Take, PlaysFromAnyFrameOn) {
     for (std::uint32_t i = frame; i < std::min(frame + 3, 300u); ++i) {
       const FramePtr played = take.next();
       ASSERT_TRUE(played) << frame;
-      expect_shown_alike(*played, *run[i], "frame " + std::to_string(i));
+      expect_equal_frames(*played, *run[i], "frame " + std::to_string(i));
       if (HasFatalFailure()) return;
     }
   }
@@ -203,19 +203,19 @@ TEST_F(Take, PlaysFromAnyFrameOn) {
   EXPECT_EQ(take.next()->index, 299u);
 }
 
-TEST_F(Take, TheSameFramesGiveTheSameBytes) {
+TEST_F(Recording, TheSameFramesGiveTheSameBytes) {
   record(130);
   const std::vector<std::byte> first = bytes();
   record(130);
   EXPECT_TRUE(bytes() == first);
 }
 
-TEST_F(Take, OfARunThatWasKilledPlaysUpToThere) {
+TEST_F(Recording, OfAKilledRunPlaysEveryFrameWritten) {
   Run run(90);
   {
     RecordingWriter writer(path_);
     while (const FramePtr frame = run.next()) writer.take(frame);
-  }  // and no finish()
+  }  // finish() is not called
   RecordingReader take(path_);
   EXPECT_FALSE(take.is_complete());
   EXPECT_EQ(take.frames(), 90u);
@@ -224,8 +224,8 @@ TEST_F(Take, OfARunThatWasKilledPlaysUpToThere) {
   EXPECT_EQ(take.damage(), "");
 }
 
-/// Plays what can be played; the number of frames, or −1 if the take was refused.
-int playable(const fs::path& path, std::string& word) {
+/// Plays the recording; returns the number of frames, or −1 if the file was refused.
+int play_all(const fs::path& path, std::string& message) {
   try {
     RecordingReader take(path);
     int frames = 0;
@@ -237,15 +237,15 @@ int playable(const fs::path& path, std::string& word) {
       }
       ++frames;
     }
-    word = take.damage();
+    message = take.damage();
     return frames;
   } catch (const InputError& error) {
-    word = error.what();
+    message = error.what();
     return -1;
   }
 }
 
-TEST_F(Take, CutShortAnywherePlaysWhatIsLeftOrSaysWhyNot) {
+TEST_F(Recording, TruncatedAnywherePlaysTheRestOrIsRefusedByName) {
   record(130);
   const std::vector<std::byte> whole = bytes();
   Random random(5);
@@ -255,18 +255,18 @@ TEST_F(Take, CutShortAnywherePlaysWhatIsLeftOrSaysWhyNot) {
   std::ranges::sort(sizes, std::greater());
   for (const std::size_t size : sizes) {
     write_file(path_, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
-    std::string word;
-    const int frames = playable(path_, word);
+    std::string message;
+    const int frames = play_all(path_, message);
     EXPECT_LE(frames, last) << "a shorter file has no more frames";
-    EXPECT_FALSE(word.empty() && frames < 0);
+    EXPECT_FALSE(message.empty() && frames < 0);
     if (frames < 0) {
-      EXPECT_NE(word.find(path_.string()), std::string::npos) << word;
+      EXPECT_NE(message.find(path_.string()), std::string::npos) << message;
     }
     last = frames;
   }
 }
 
-TEST_F(Take, CorruptAnywherePlaysWhatIsReadableAndSaysSo) {
+TEST_F(Recording, CorruptAnywherePlaysWhatIsReadableAndReportsTheDamage) {
   record(130);
   const std::vector<std::byte> whole = bytes();
   Random random(6);
@@ -275,16 +275,16 @@ TEST_F(Take, CorruptAnywherePlaysWhatIsReadableAndSaysSo) {
     const std::size_t at = random.below(bad.size());
     bad[at] ^= static_cast<std::byte>(1 + random.below(255));
     write_file(path_, bad);
-    std::string word;
-    const int frames = playable(path_, word);
+    std::string message;
+    const int frames = play_all(path_, message);
     EXPECT_LE(frames, 130);
     if (frames < 130) {
-      EXPECT_FALSE(word.empty()) << "byte " << at;
+      EXPECT_FALSE(message.empty()) << "byte " << at;
     }
   }
 }
 
-TEST_F(Take, OfAnotherKindOrNoneIsRefused) {
+TEST_F(Recording, AFileThatIsNoRecordingIsRefused) {
   EXPECT_THROW(RecordingReader("/nowhere/at/all.take"), InputError);
   EXPECT_THROW(RecordingReader{fs::temp_directory_path()}, InputError);
   write_file(path_, std::vector<std::byte>(100));
@@ -292,19 +292,19 @@ TEST_F(Take, OfAnotherKindOrNoneIsRefused) {
   EXPECT_THROW(RecordingWriter("/proc/no/such.take"), FileError);
 }
 
-TEST_F(Take, OfAnotherVersionIsRefusedAndToldSo) {
+TEST_F(Recording, OfAnUnreadableVersionIsRefusedWithAMessage) {
   record(3);
   std::vector<std::byte> older = bytes();
   older[7] = std::byte{'1'};
   write_file(path_, older);
-  std::string word;
-  EXPECT_EQ(playable(path_, word), -1);
-  EXPECT_NE(word.find("another version"), std::string::npos) << word;
-  EXPECT_NE(word.find("record it again"), std::string::npos) << word;
+  std::string message;
+  EXPECT_EQ(play_all(path_, message), -1);
+  EXPECT_NE(message.find("another version"), std::string::npos) << message;
+  EXPECT_NE(message.find("record it again"), std::string::npos) << message;
 }
 
-// Version 5 is as 6 without what a frame's bodies came off; this one is of a stack, with a shot.
-TEST_F(Take, OfTheVersionBeforeIsPlayedWithoutNames) {
+// Version 5 has no names and no keys of former bodies; this recording is of a stack with a shot.
+TEST_F(Recording, OfTheVersionBeforeIsPlayedWithoutNames) {
   RecordingReader take(SUNDER_TAKES_FOLDER "/whole");
   std::size_t frames = 0;
   while (const FramePtr frame = take.next()) {
@@ -320,7 +320,7 @@ TEST_F(Take, OfTheVersionBeforeIsPlayedWithoutNames) {
   EXPECT_EQ(frames, take.frames());
 }
 
-TEST_F(Take, OfTheVersionBeforeIsReadWithTheLightThatThereWas) {
+TEST_F(Recording, OfTheVersionBeforeIsPlayedWithDefaultLight) {
   RecordingReader take(fs::path(SUNDER_FRAMES_FOLDER) / "version_5.take");
   EXPECT_TRUE(take.is_complete());
   std::uint64_t frames = 0;
@@ -334,7 +334,7 @@ TEST_F(Take, OfTheVersionBeforeIsReadWithTheLightThatThereWas) {
   EXPECT_EQ(take.damage(), "");
 }
 
-TEST_F(Take, ARunThatIsTheSameIsFoundTheSame) {
+TEST_F(Recording, ARunOfTheSameFramesHasNoDifference) {
   record(40);
   RecordingReader take(path_);
   RecordingVerifier verifier(take);
@@ -345,7 +345,7 @@ TEST_F(Take, ARunThatIsTheSameIsFoundTheSame) {
   EXPECT_EQ(verifier.same(), 40u);
 }
 
-TEST_F(Take, ARunThatDiffersIsToldTheFirstFrameAndBody) {
+TEST_F(Recording, ADifferentRunIsReportedByItsFirstFrameAndBody) {
   record(40);
   RecordingReader take(path_);
   RecordingVerifier verifier(take);
@@ -356,7 +356,7 @@ TEST_F(Take, ARunThatDiffersIsToldTheFirstFrameAndBody) {
   EXPECT_TRUE(verifier.difference().starts_with("frame 31: body 12 ")) << verifier.difference();
 }
 
-TEST_F(Take, ALongerRunIsToldThatTheTakeHasEnded) {
+TEST_F(Recording, ALongerRunIsReportedWhereTheRecordingEnds) {
   record(10);
   RecordingReader take(path_);
   RecordingVerifier verifier(take);

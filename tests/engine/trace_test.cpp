@@ -1,4 +1,4 @@
-// What the account of a frame and a trace promise.
+// Tests of traces and of the work log of a frame.
 #include "engine/base/trace.h"
 
 #include <atomic>
@@ -35,12 +35,12 @@ TEST(Trace, KeepsSpansOnlyWhileItIsOn) {
   EXPECT_TRUE(stop_trace().empty());
 }
 
-TEST(Trace, NamesWhatOtherThreadsDoOfALoopAsTheSpanThatItIsIn) {
+TEST(Trace, WorkOfOtherThreadsInALoopHasTheNameOfTheEnclosingSpan) {
   set_threads(4);
   start_trace();
   {
     const TraceSpan span("loop");
-    std::atomic<int> inside = 0;  // nobody leaves before another has come
+    std::atomic<int> inside = 0;  // keeps each thread in the loop until others have entered
     for_chunks(64, 1, [&](std::size_t, std::size_t, std::size_t) {
       ++inside;
       for (int i = 0; i < 1000 && inside < 64; ++i) std::this_thread::yield();
@@ -61,7 +61,7 @@ TEST(Trace, IsWrittenAsEventsThatBrowsersOpen) {
   EXPECT_EQ(std::get<std::string>(figures.at("/traceEvents/3/args/name")), "thread 3");
 }
 
-TEST(WorkLog, AddsUpWhatIsOfOneStageAndName) {
+TEST(WorkLog, AddsUpItemsOfOneStageAndName) {
   WorkLog log;
   log.add({Stage::kSolve, "points", 3, 1.5});
   log.add({Stage::kCollide, "points", 5, 0});

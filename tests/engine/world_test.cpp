@@ -1,4 +1,4 @@
-// The break stage and the ledger, with scripted physics and fracture: energy, momentum, order.
+// Tests of the break stage and of Simulation, with scripted physics and breaker.
 #include <algorithm>
 #include <string_view>
 
@@ -16,7 +16,7 @@ using testing::ScriptedPhysics;
 
 constexpr double kToughness = 100, kAreaPerPart = 2;  // 2 parts: 2 · 2 / 2 · 100 = 200 J
 
-/// Two boxes side by side along x, touching, from `low` on.
+/// Returns two touching boxes along x, the first at `low`.
 Compound two_boxes(const Vec3& low, bool anchored) {
   Compound compound;
   for (int i = 0; i < 2; ++i) {
@@ -66,7 +66,7 @@ Sum sum_of(const ScriptedPhysics& physics) {
   return sum;
 }
 
-/// A run with its scripted physics still in reach.
+/// Simulation with access to its scripted physics.
 struct ScriptedRun {
   ScriptedPhysics* physics;
   Simulation simulation;
@@ -81,7 +81,7 @@ struct ScriptedRun {
                    std::make_unique<ScriptedBreaker>(kAreaPerPart)) {}
 };
 
-// Keys count solids first, then balls.
+/// Returns a script of a contact of `a` and `b` at every collide(); keys are solids, then balls.
 ScriptedPhysics::Script always(std::uint32_t a, std::uint32_t b, Vec3 point, Vec3 normal) {
   return [=](const ScriptedPhysics& physics, int) { return physics.approach(a, b, point, normal); };
 }
@@ -113,11 +113,11 @@ TEST(BreakStage, KeepsAngularMomentumThroughTheBreakItself) {
   const Sum before = sum_of(*run.physics);
   ASSERT_EQ(run.simulation.next()->breaks.size(), 1u);
   Sum after = sum_of(*run.physics);
-  // Moving on for one step in a straight line does not change it either.
+  // The motion of the step, in a straight line, does not change angular momentum either.
   EXPECT_LT((after.spin - before.spin).norm(), 1e-9 * before.spin.norm());
 }
 
-TEST(BreakStage, LeavesWholeWhatIsHitTooSoftly) {
+TEST(BreakStage, AnImpactOfTooLittleEnergyBreaksNothing) {
   const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
   ScriptedRun run(scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(0.6, 0, 0))}),
                   always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));
@@ -127,7 +127,7 @@ TEST(BreakStage, LeavesWholeWhatIsHitTooSoftly) {
   EXPECT_EQ(frame->report.counts.compounds, 1u);
 }
 
-TEST(BreakStage, LeavesWholeWhatIsHitBelowItsStrength) {
+TEST(BreakStage, AnImpactBelowTheStrengthBreaksNothing) {
   const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
   Scene scene = scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
   scene.materials[0].strength_Ns = 1e6;
@@ -136,7 +136,7 @@ TEST(BreakStage, LeavesWholeWhatIsHitBelowItsStrength) {
   EXPECT_TRUE(run.simulation.next()->breaks.empty());
 }
 
-TEST(BreakStage, BreaksWhatIsWeakBesideWhatIsTooStrong) {
+TEST(BreakStage, BreaksAWeakSolidBesideOneThatIsTooStrong) {
   Solid strong{"strong", two_boxes(Vec3::Zero(), false), {}};
   strong.compound.convexes[0] = make_convex(make_box(Vec3::Zero(), Vec3::Ones()), MaterialIndex(2));
   const Solid weak{"weak", two_boxes(Vec3(3, 0, 0), false), {}};
@@ -160,7 +160,7 @@ TEST(BreakStage, BreaksWhatIsWeakBesideWhatIsTooStrong) {
       << "two pieces of the weak solid, and the strong solid";
 }
 
-TEST(BreakStage, LetsTheAnchoredPartStandAndTheRestGo) {
+TEST(BreakStage, KeepsTheAnchoredPieceStaticAndFreesTheRest) {
   const Solid solid{"box", two_boxes(Vec3::Zero(), true), {}};
   ScriptedRun run(scene_of({solid}, {ball_at(Vec3(2.3, 0.5, 0.5), Vec3(-9, 0, 0))}),
                   always(1, 0, Vec3(2, 0.5, 0.5), Vec3(-1, 0, 0)));
@@ -172,7 +172,7 @@ TEST(BreakStage, LetsTheAnchoredPartStandAndTheRestGo) {
   EXPECT_FALSE(frame->bodies[2].is_static);
 }
 
-TEST(BreakStage, BreaksOneBehindTheOtherInOneStep) {
+TEST(BreakStage, BreaksTwoSolidsBehindEachOtherInOneStep) {
   const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
   const Solid back{"back", two_boxes(Vec3(0, 0, -2), false), {}};
   const auto script = [](const ScriptedPhysics& physics, int collides) {
@@ -187,7 +187,7 @@ TEST(BreakStage, BreaksOneBehindTheOtherInOneStep) {
   EXPECT_NEAR(before - sum_of(*run.physics).kinetic, 400, 1e-6);
 }
 
-TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
+TEST(BreakStage, DefersBreaksOverTheBudgetAndLosesNoEnergy) {
   const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
   const Solid back{"back", two_boxes(Vec3(0, 0, -2), false), {}};
   Scene scene = scene_of({front, back}, {ball_at(Vec3(-0.25, 0.5, 0.5), Vec3(30, 0, 0)),
@@ -206,16 +206,16 @@ TEST(BreakStage, PutsOffWhatExceedsTheBudgetAndLosesNothing) {
   ASSERT_EQ(first->breaks.size(), 1u);
   EXPECT_EQ(first->breaks[0].parent_key, 0u);  // the harder impact first
   EXPECT_EQ(first->report.carried_over, 1u);
-  const BodyState waiting = run.physics->find(3)->state;
-  EXPECT_EQ(waiting.velocity_W, Vec3(20, 0, 0));
-  EXPECT_EQ(waiting.X_WB.position, Vec3(-0.25, 0.5, -1.5));
+  const BodyState deferred = run.physics->find(3)->state;
+  EXPECT_EQ(deferred.velocity_W, Vec3(20, 0, 0));
+  EXPECT_EQ(deferred.X_WB.position, Vec3(-0.25, 0.5, -1.5));
   const FramePtr second = run.simulation.next();
   EXPECT_EQ(second->breaks.size(), 1u);
   EXPECT_EQ(second->report.carried_over, 0u);
   EXPECT_NEAR(before - sum_of(*run.physics).kinetic, 400, 1e-6);
 }
 
-TEST(BreakStage, AsksNothingTwiceInAStepThatBreaksElsewhere) {
+TEST(BreakStage, PlansNoBreakTwiceInAStepThatBreaksElsewhere) {
   const Solid breaks{"breaks", two_boxes(Vec3::Zero(), false), {}};
   const Solid holds{"holds", two_boxes(Vec3(0, 0, -2), false), {}};
   const Scene scene = scene_of({breaks, holds}, {ball_at(Vec3(-0.25, 0.5, 0.5), Vec3(30, 0, 0)),
@@ -238,7 +238,7 @@ TEST(BreakStage, AsksNothingTwiceInAStepThatBreaksElsewhere) {
   EXPECT_EQ(counted("breaks planned"), 2u) << "and is not planned again";
 }
 
-TEST(BreakStage, TakesWhatHasWaitedBeforeHarderImpactsThatAreNew) {
+TEST(BreakStage, BreaksDeferredImpactsBeforeNewHarderOnes) {
   std::vector<Solid> solids;
   std::vector<Ball> balls;
   for (int i = 0; i < 3; ++i) {
@@ -248,7 +248,7 @@ TEST(BreakStage, TakesWhatHasWaitedBeforeHarderImpactsThatAreNew) {
   }
   Scene scene = scene_of(solids, balls);
   scene.limits.parts_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
-  bool all_meet = false;  // at first the third ball does not
+  bool all_meet = false;  // the third ball is left out at first
   ScriptedRun run(scene, [&](const ScriptedPhysics& physics, int) {
     std::vector<SpeculativeContact> found;
     for (std::uint32_t i = 0; i < (all_meet ? 3u : 2u); ++i) {
@@ -268,7 +268,7 @@ TEST(BreakStage, TakesWhatHasWaitedBeforeHarderImpactsThatAreNew) {
   EXPECT_EQ(broken(), 2);
 }
 
-TEST(BreakStage, BreaksWhatIsExactlyAsLargeAsTheSmallestThatBreaks) {
+TEST(BreakStage, BreaksASolidOfExactlyTheSmallestVolumeThatBreaks) {
   for (const double smallest_m3 : {2.0, 2.01}) {
     const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
     Scene scene = scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
@@ -320,7 +320,7 @@ TEST(Simulation, FiresShotsAtTheirTimeAndCountsTheirMassFromTheStart) {
   EXPECT_NEAR(last->bodies[0].X_WB.position.x(), 0.1, 1.5 / 60);
 }
 
-TEST(Simulation, TellsOfEachPieceWhatItWasPartOfAndWhatItCameOff) {
+TEST(Simulation, NamesTheSolidAndTheFormerBodyOfEachPiece) {
   const Solid front{"front", two_boxes(Vec3::Zero(), false), {}};
   Scene scene = scene_of({front}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
   scene.shots = {{0.02, ball_at(Vec3(0, 9, 0), Vec3(1, 0, 0))}};
@@ -342,7 +342,7 @@ TEST(Simulation, TellsOfEachPieceWhatItWasPartOfAndWhatItCameOff) {
   EXPECT_EQ(frame->bodies[3].name, 2u) << "of the shot";
 }
 
-TEST(Simulation, TakesItsCameraAlongItsKeys) {
+TEST(Simulation, MovesItsCameraAlongItsKeys) {
   Scene scene = scene_of({}, {});
   scene.view.target_W = {0, 1, 0};
   scene.view_keys = {{0, Vec3(0, 0, 10), {}, {}}, {0.1, Vec3(4, 0, 10), {}, 0.5}};
@@ -356,7 +356,7 @@ TEST(Simulation, TakesItsCameraAlongItsKeys) {
   EXPECT_EQ(frame->view.fov_rad, 0.5);
 }
 
-TEST(Simulation, KeepsTheMeshesOfWhatABreakDidNotChange) {
+TEST(Simulation, KeepsTheMeshesThatABreakDoesNotChange) {
   const Solid solid{"box", two_boxes(Vec3::Zero(), false), {}};
   ScriptedRun run(scene_of({solid}, {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))}),
                   always(1, 0, Vec3(0, 0.5, 0.5), Vec3(1, 0, 0)));

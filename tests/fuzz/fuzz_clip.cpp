@@ -1,4 +1,4 @@
-// Any sequence of planes cuts a box into closed pieces that make up the whole.
+// Fuzz target: a sequence of planes cuts a box into closed pieces whose volumes sum to the whole.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -34,7 +34,7 @@ ConvexPolyhedron part(const ConvexPolyhedron& solid, const Plane& plane, PlaneId
 void cut_box(std::span<const std::uint8_t> bytes) {
   ConvexPolyhedron solid = make_box(-Vec3::Ones(), Vec3::Ones());
   double worst_tolerance = 0;
-  const std::size_t planes = std::min(fuzz::kMostPlanes, bytes.size() / fuzz::kPlaneBytes);
+  const std::size_t planes = std::min(fuzz::kMaxPlanes, bytes.size() / fuzz::kPlaneBytes);
   for (std::size_t i = 0; i < planes; ++i) {
     const fuzz::Step step = fuzz::read_step(bytes.data() + i * fuzz::kPlaneBytes, solid);
     worst_tolerance = std::max(worst_tolerance, step.tolerance);

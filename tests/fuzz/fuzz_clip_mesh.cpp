@@ -1,5 +1,5 @@
-// Any sequence of planes cuts a mesh that is not convex into watertight pieces that make up the
-// whole, and so do its islands. The first byte chooses the mesh.
+// Fuzz target: a sequence of planes cuts a mesh that is not convex into watertight pieces and
+// islands whose volumes sum to the whole. The first byte chooses the mesh.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

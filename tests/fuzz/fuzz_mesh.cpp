@@ -1,5 +1,5 @@
-// Any bytes as a mesh of any format: reading ends with a mesh whose every corner names a vertex,
-// or with an InputError.
+// Fuzz targets: any bytes as a mesh file of each format give a mesh whose corners are indices of
+// vertices, or an InputError.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -13,7 +13,7 @@ namespace {
 
 template <MeshFormat format>
 void read(std::span<const std::uint8_t> bytes) {
-  // Small limits keep the fuzzer fast; they are input like any other.
+  // Small limits keep the fuzzer fast.
   const MeshLimits limits{.bytes = 1 << 20, .vertices = 1 << 16, .corners = 1 << 18};
   try {
     const RawMesh mesh = parse_mesh(std::as_bytes(bytes), format, "no_such_folder/mesh", limits);

@@ -1,5 +1,5 @@
-// Any face of any convex that planes cut from a box ends in any plane: closed, within its other
-// planes, and with all that was there within the new one.
+// Fuzz target: a convex cut from a box gets any of its faces mitred in any plane. The result is
+// closed, lies within its other planes, and has at least the volume that was inside the new plane.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,8 @@
 namespace sunder {
 namespace {
 
-constexpr double kLargest = 1e3;  ///< Of coordinates: mitres of mitres grow.
+/// Largest coordinate of a solid that is mitred again: mitres of mitres grow.
+constexpr double kMaxCoordinate = 1e3;
 
 double farthest_coordinate(const ConvexPolyhedron& solid) {
   const Box box = bounds(solid);
@@ -29,9 +30,9 @@ double volume_within(const ConvexPolyhedron& solid, const Plane& plane, double t
   return mass_properties(side == PlaneSide::kInside ? solid : result).volume_m3;
 }
 
-/// The solid with one face ended in the step's plane; empty if nothing is left.
-ConvexPolyhedron ended(const ConvexPolyhedron& solid, std::uint32_t front, const fuzz::Step& step,
-                       double worst_tolerance) {
+/// Returns the solid with its face `front` mitred in the step's plane; empty if nothing is left.
+ConvexPolyhedron mitred(const ConvexPolyhedron& solid, std::uint32_t front, const fuzz::Step& step,
+                        double worst_tolerance) {
   MitreScratch scratch;
   ConvexPolyhedron result;
   const ColumnCell column[] = {{&solid, front}};
@@ -53,13 +54,13 @@ ConvexPolyhedron ended(const ConvexPolyhedron& solid, std::uint32_t front, const
   return result;
 }
 
-/// Where a step would keep the outside of its plane, a face ends in the plane instead.
-void end_faces(std::span<const std::uint8_t> bytes) {
+/// Cuts a box by planes; a step that keeps the outside of its plane mitres a face in it instead.
+void mitre_faces(std::span<const std::uint8_t> bytes) {
   ConvexPolyhedron solid = make_box(-Vec3::Ones(), Vec3::Ones()), cut;
   ClipScratch scratch;
   double worst_tolerance = 0;
-  const std::size_t planes = std::min(fuzz::kMostPlanes, bytes.size() / fuzz::kPlaneBytes);
-  for (std::size_t i = 0; i < planes && farthest_coordinate(solid) < kLargest; ++i) {
+  const std::size_t planes = std::min(fuzz::kMaxPlanes, bytes.size() / fuzz::kPlaneBytes);
+  for (std::size_t i = 0; i < planes && farthest_coordinate(solid) < kMaxCoordinate; ++i) {
     const std::uint8_t* at = bytes.data() + i * fuzz::kPlaneBytes;
     const fuzz::Step step = fuzz::read_step(at, solid);
     worst_tolerance = std::max(worst_tolerance, step.tolerance);
@@ -70,12 +71,12 @@ void end_faces(std::span<const std::uint8_t> bytes) {
       continue;
     }
     const auto front = static_cast<std::uint32_t>(at[7] % solid.faces.size());
-    ConvexPolyhedron left = ended(solid, front, step, worst_tolerance);
+    ConvexPolyhedron left = mitred(solid, front, step, worst_tolerance);
     if (!left.empty()) solid = std::move(left);
   }
 }
 
-const fuzz::Registration mitre_target("mitre", end_faces);
+const fuzz::Registration mitre_target("mitre", mitre_faces);
 
 }  // namespace
 }  // namespace sunder

@@ -1,5 +1,4 @@
-// Any bytes as a pattern file: a pattern that breaks a box without losing any of it, or an
-// InputError.
+// Fuzz target: any bytes as a pattern file break a box and keep its volume, or give an InputError.
 #include <cmath>
 #include <cstdint>
 #include <sstream>

@@ -1,5 +1,5 @@
-// Any polygons over the points of a small lattice, where everything that can coincide does: repair
-// ends with watertight solids, or with an InputError.
+// Fuzz target: repair of any polygons over the points of a small lattice, with many coincident
+// vertices, edges and faces, gives watertight solids or an InputError.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@ void repair_lattice(std::span<const std::uint8_t> bytes) {
   if (bytes.size() > 400) return;
   RawMesh mesh;
   for (int i = 0; i < 64; ++i) mesh.vertices.emplace_back(i % 4, i / 4 % 4, i / 16);
-  // The lattice's points are slightly off for one half of the inputs.
+  // Half of the inputs have the points of the lattice slightly displaced.
   const bool bent = !bytes.empty() && (bytes[0] & 1) != 0;
   for (Vec3& p : mesh.vertices) p += bent ? 1e-7 * p.cwiseProduct(p) : Vec3(0, 0, 0);
   std::vector<std::uint32_t> polygon;

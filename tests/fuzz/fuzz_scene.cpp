@@ -1,5 +1,5 @@
-// Any bytes as a scene file, and what follows a zero as a --set: a scene whose first frames are
-// finite, or an InputError.
+// Fuzz target: any bytes as a scene file, and those after a zero as a --set, give a scene whose
+// first frames are finite, or an InputError.
 #include <cstdint>
 #include <string>
 
@@ -12,7 +12,7 @@
 namespace sunder {
 namespace {
 
-/// Small enough to be run by a fuzzer.
+/// True if the scene is small enough for a fuzzer to simulate.
 bool is_small(const Scene& scene) {
   std::size_t convexes = 0, cells = 0;
   for (const Solid& solid : scene.solids) convexes += solid.compound.convexes.size();
@@ -38,7 +38,8 @@ void load(std::span<const std::uint8_t> bytes) {
     options.set.push_back(text.substr(end + 1));
     text.resize(end);
   }
-  if (text.find("mesh") != std::string::npos) return;  // other targets; and the cache is on disk
+  if (text.find("mesh") != std::string::npos)
+    return;  // meshes have their own targets, and their cache is on disk
   try {
     const Scene scene = scenes::parse_scene(text, "no_such_folder/fuzz.toml", options);
     for (const Solid& solid : scene.solids) SUNDER_CHECK(!solid.compound.convexes.empty());

@@ -1,5 +1,5 @@
-// Any bytes as what the program stores and reads back: takes, frames, compounds, break cases and
-// figures. Reading ends with something sound, or with an InputError.
+// Fuzz targets: any bytes as a file that the program stores and reads back (recordings, frames,
+// compounds, break cases, figures) give valid data or an InputError.
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,18 +26,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file for as long as it is read; in memory where there is such a place.
-class Stored {
+/// Temporary file with the given bytes, in /dev/shm if it exists; removed by the destructor.
+class TemporaryFile {
  public:
-  explicit Stored(const std::vector<std::byte>& bytes) {
+  explicit TemporaryFile(const std::vector<std::byte>& bytes) {
     const fs::path memory = "/dev/shm";
     path_ = (fs::exists(memory) ? memory : fs::temp_directory_path()) /
             ("sunder-fuzz-" + std::to_string(getpid()));
     write_file(path_, bytes);
   }
-  ~Stored() { fs::remove(path_); }
-  Stored(const Stored&) = delete;
-  Stored& operator=(const Stored&) = delete;
+  ~TemporaryFile() { fs::remove(path_); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
   const fs::path& path() const { return path_; }
 
  private:
@@ -68,8 +68,8 @@ void check_frame(const Frame& frame) {
     SUNDER_CHECK(puff.material.value < frame.materials->size());
 }
 
-void play(const std::vector<std::byte>& file) {
-  const Stored stored(file);
+void play_recording(const std::vector<std::byte>& file) {
+  const TemporaryFile stored(file);
   try {
     RecordingReader take(stored.path());
     while (const FramePtr frame = take.next()) check_frame(*frame);
@@ -79,11 +79,11 @@ void play(const std::vector<std::byte>& file) {
   }
 }
 
-void play_file(std::span<const std::uint8_t> bytes) { play(bytes_of(bytes)); }
+void play_file(std::span<const std::uint8_t> bytes) { play_recording(bytes_of(bytes)); }
 
-/// A take whose sums are right, whatever its blocks hold: each is given as its kind, its number,
-/// the length of its content in two bytes, and that. With 128 more the first kind says that it is
-/// one of the newest version, else of the oldest.
+/// Plays a recording with correct checksums and any content of blocks. Each block is given as its
+/// kind, its number, the length of its content in two bytes, and the content. 128 added to the
+/// first kind makes a recording of the newest version; otherwise it is of the oldest.
 void play_blocks(std::span<const std::uint8_t> bytes) {
   ByteWriter out;
   for (std::size_t i = 0; i < kRecordingMagicLength; ++i) out.put(kRecordingMagic[i]);
@@ -101,20 +101,20 @@ void play_blocks(std::span<const std::uint8_t> bytes) {
     out.bytes.insert(out.bytes.end(), block.begin(), block.end());
     at += 4 + size;
   }
-  play(out.bytes);
+  play_recording(out.bytes);
 }
 
-/// A frame file whose sums are right, of any content: in zstd as it is (RFC 8878, 3.1.1), of the
-/// version that the first byte says.
-void show(std::span<const std::uint8_t> bytes) {
+/// Reads a frame file with a correct checksum and any content, stored uncompressed in a zstd frame
+/// (RFC 8878, 3.1.1). The first byte gives the version.
+void read_frame_content(std::span<const std::uint8_t> bytes) {
   if (bytes.empty() || bytes.size() > 1 << 16) return;
   const std::vector<std::byte> content = bytes_of(bytes.subspan(1));
   const auto size = static_cast<std::uint32_t>(content.size());
   ByteWriter body;
   body.put(std::uint64_t{size});
   body.put(std::uint32_t{0xfd2fb528}, std::uint8_t{0xa0},
-           size);                             // one segment, its size in 4 bytes
-  const std::uint32_t block = size << 3 | 1;  // the last, as it is
+           size);                             // one segment, with its size in 4 bytes
+  const std::uint32_t block = size << 3 | 1;  // last block, uncompressed
   for (int i = 0; i < 3; ++i) body.put(static_cast<std::uint8_t>(block >> 8 * i));
   body.bytes.insert(body.bytes.end(), content.begin(), content.end());
   ByteWriter file;
@@ -122,7 +122,7 @@ void show(std::span<const std::uint8_t> bytes) {
   file.put(static_cast<char>('1' + bytes[0] % 3));
   file.put(hash_bytes(body.bytes));
   file.bytes.insert(file.bytes.end(), body.bytes.begin(), body.bytes.end());
-  const Stored stored(file.bytes);
+  const TemporaryFile stored(file.bytes);
   try {
     check_frame(*read_frame(stored.path()));
   } catch (const InputError& error) {
@@ -130,16 +130,16 @@ void show(std::span<const std::uint8_t> bytes) {
   }
 }
 
-void show_file(std::span<const std::uint8_t> bytes) {
-  const Stored stored(bytes_of(bytes));
+void read_frame_file(std::span<const std::uint8_t> bytes) {
+  const TemporaryFile stored(bytes_of(bytes));
   try {
     check_frame(*read_frame(stored.path()));
   } catch (const InputError&) {
   }
 }
 
-/// What is read is written as it was.
-void recall_compound(std::span<const std::uint8_t> bytes) {
+/// Checks that a compound that can be read is written and read again to the same bytes.
+void reread_compound(std::span<const std::uint8_t> bytes) {
   const std::vector<std::byte> content = bytes_of(bytes);
   try {
     ByteReader in(content, "fuzz");
@@ -183,9 +183,9 @@ void read_node_file(std::span<const std::uint8_t> bytes) {
 }
 
 const fuzz::Registration stored_targets[] = {
-    {"take", play_blocks},     {"take_file", play_file},      {"frame", show},
-    {"frame_file", show_file}, {"compound", recall_compound}, {"case", read_break_case},
-    {"figures", read_json},    {"nodes", read_node_file}};
+    {"take", play_blocks},           {"take_file", play_file},      {"frame", read_frame_content},
+    {"frame_file", read_frame_file}, {"compound", reread_compound}, {"case", read_break_case},
+    {"figures", read_json},          {"nodes", read_node_file}};
 
 }  // namespace
 }  // namespace sunder

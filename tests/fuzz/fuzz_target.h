@@ -1,4 +1,4 @@
-// Fuzz targets by name: what the fuzzers feed, and what replay.cpp runs on the corpus.
+// The table of fuzz targets, by name, for the fuzzers and for replay.cpp.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace sunder::fuzz {
 
-/// Takes any bytes; ends the program where something that must hold does not.
+/// Function that takes any bytes and ends the program if a property that must hold does not.
 using Target = void (*)(std::span<const std::uint8_t> bytes);
 
-/// All targets, by the names of their folders in corpus/.
+/// Returns all targets, by the names of their folders in corpus/.
 std::map<std::string, Target>& targets();
 
-/// A target of the file it stands in.
+/// Adds a target to targets() when its source file is initialised.
 struct Registration {
   Registration(const char* name, Target target) { targets()[name] = target; }
 };

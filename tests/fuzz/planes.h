@@ -1,4 +1,4 @@
-// Planes out of a fuzzer's bytes, near-degenerate ones above all; each takes kPlaneBytes.
+// Planes made of a fuzzer's bytes, kPlaneBytes each, most of them nearly degenerate.
 #pragma once
 
 #include <cmath>
@@ -10,10 +10,10 @@
 namespace sunder::fuzz {
 
 inline constexpr std::size_t kPlaneBytes = 8;
-inline constexpr std::size_t kMostPlanes = 64;
+inline constexpr std::size_t kMaxPlanes = 64;
 inline constexpr double kTolerances[] = {0, 0, 1e-13, 1e-9};
 
-/// What eight bytes say: a plane, how wide its tolerance is and which side goes on.
+/// A cut: its plane, its tolerance in m, and the side that is cut next.
 struct Step {
   Plane plane;
   double tolerance = 0;
@@ -25,7 +25,7 @@ Vec3 some_vertex(const Solid& solid, std::uint8_t byte) {
   return solid.vertices[byte % solid.vertices.size()];
 }
 
-/// One of four kinds: anywhere, on a coarse grid, almost a face, through three vertices.
+/// Returns a plane anywhere, on a coarse grid, almost in a face, or through three vertices.
 template <class Solid>
 Plane read_plane(const std::uint8_t* bytes, const Solid& solid) {
   const auto number = [&](int i) {

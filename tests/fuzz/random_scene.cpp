@@ -1,4 +1,4 @@
-// Read first: random_scene(), at the end.
+// Text of random scenes. Begin reading at random_scene(), at the end.
 #include "tests/fuzz/random_scene.h"
 
 #include <array>
@@ -20,10 +20,10 @@ constexpr std::array kMeshes = {"torus:0.8,0.25", "voronoi:12",   "hall:4",
 constexpr std::array kJoints = {"ball", "hinge", "fixed", "rope", "distance"};
 constexpr std::array kPresets = {"draft", "realtime", "accurate", "reference"};
 
-/// The text of a scene under way.
-class Writer {
+/// Writes the text of a scene, with random values.
+class SceneWriter {
  public:
-  explicit Writer(std::uint64_t seed) : random_(seed, 7) {}
+  explicit SceneWriter(std::uint64_t seed) : random_(seed, 7) {}
 
   template <class List>
   const char* one_of(const List& list) {
@@ -35,7 +35,7 @@ class Writer {
   }
   bool chance(double share) { return random_.uniform() < share; }
   std::string name() { return "thing " + std::to_string(++things_); }
-  /// The last name that was given; or that of any before it.
+  /// Returns one of the names that name() has returned so far.
   std::string some_name() { return "thing " + std::to_string(whole(1, things_)); }
   int things() const { return things_; }
 
@@ -61,11 +61,11 @@ class Writer {
   std::string text_;
 };
 
-Vec3 place(Writer& w, double spread_m, double low_m, double high_m) {
+Vec3 random_position(SceneWriter& w, double spread_m, double low_m, double high_m) {
   return {w.between(-spread_m, spread_m), w.between(low_m, high_m), w.between(-spread_m, spread_m)};
 }
 
-void put_head(Writer& w, bool planar) {
+void put_head(SceneWriter& w, bool planar) {
   w.line("[scene]");
   w.word("description", "Made by chance.");
   w.number("duration_s", w.between(1, 3));
@@ -83,9 +83,9 @@ void put_head(Writer& w, bool planar) {
   if (w.chance(0.2)) w.number("restitution", w.between(0, 1));
 }
 
-/// Parts of a compound on one line, since the solid's own keys follow: piers on a slab, an arch
-/// between them and beams over them.
-void put_parts(Writer& w) {
+/// Writes the parts of a compound on one line, since the solid's own keys follow: piers on a slab,
+/// an arch between them and beams over them.
+void put_parts(SceneWriter& w) {
   char text[600];
   std::snprintf(text, sizeof text,
                 "part = [{ structure = \"box\", size_m = [4, 0.2, 1], material = \"%s\" }, "
@@ -98,8 +98,8 @@ void put_parts(Writer& w) {
   w.line(text);
 }
 
-/// The keys of a structure that is not too large; it says what it is made of itself.
-void put_structure(Writer& w) {
+/// Writes the keys of a small structure, with its material.
+void put_structure(SceneWriter& w) {
   switch (w.whole(0, 9)) {
     case 0:
       w.word("structure", "box");
@@ -154,7 +154,7 @@ void put_structure(Writer& w) {
   }
 }
 
-void put_solid(Writer& w) {
+void put_solid(SceneWriter& w) {
   const bool mesh = w.chance(0.2);
   w.line(mesh ? "[[body]]" : "[[solid]]");
   if (mesh) {
@@ -164,20 +164,20 @@ void put_solid(Writer& w) {
     put_structure(w);
   }
   w.word("name", w.name());
-  w.vector("position", place(w, 4, 0, w.chance(0.3) ? 3 : 0));
+  w.vector("position", random_position(w, 4, 0, w.chance(0.3) ? 3 : 0));
   const double turned = w.between(0, 1);
-  if (turned < 0.1) w.vector("rotation_deg", 90 * place(w, 1, -1, 1));
+  if (turned < 0.1) w.vector("rotation_deg", 90 * random_position(w, 1, -1, 1));
   if (turned > 0.5) w.vector("rotation_deg", Vec3(0, w.between(-180, 180), 0));
-  if (w.chance(0.1)) w.vector("velocity", place(w, 10, -5, 5));
-  if (w.chance(0.1)) w.vector("angular_velocity", place(w, 10, -10, 10));
+  if (w.chance(0.1)) w.vector("velocity", random_position(w, 10, -5, 5));
+  if (w.chance(0.1)) w.vector("angular_velocity", random_position(w, 10, -10, 10));
   if (w.chance(0.5)) w.word("anchored", w.chance(0.1) ? "all" : "bottom");
   if (w.chance(0.1)) w.line("repeat = { count = 2, step_m = [0.5, 4, 0], turn_deg = 20 }");
   if (w.chance(0.1)) w.word("mirror", "z");
 }
 
-/// A ball that hangs beside what stands, or from nothing.
-void put_hanging(Writer& w) {
-  const Vec3 at = place(w, 4, 2, 5);
+/// Writes a ball in a joint with the world.
+void put_hanging(SceneWriter& w) {
+  const Vec3 at = random_position(w, 4, 2, 5);
   w.line("[[ball]]");
   const std::string ball = w.name();
   w.word("name", ball);
@@ -188,30 +188,30 @@ void put_hanging(Writer& w) {
   w.word("kind", kind);
   w.word("a", ball);
   w.vector("at", at);
-  if (kind == "rope" || kind == "distance") w.vector("to", at + place(w, 1, 0.5, 2));
+  if (kind == "rope" || kind == "distance") w.vector("to", at + random_position(w, 1, 0.5, 2));
   if (w.chance(0.5)) w.number("breaking_N", w.between(10, 1e5));
 }
 
-void put_shot(Writer& w) {
+void put_shot(SceneWriter& w) {
   w.line("[[script.shot]]");
   w.number("time_s", w.between(0, 1.5));
-  w.vector("from", place(w, 8, 1, 6));
-  w.vector("at", place(w, 3, 0.3, 2));
+  w.vector("from", random_position(w, 8, 1, 6));
+  w.vector("at", random_position(w, 3, 0.3, 2));
   w.number("speed_m_s", w.chance(0.1) ? w.between(100, 1000) : w.between(5, 60));
   w.number("radius_m", w.between(0.05, 0.5));
   w.word("name", w.name());
 }
 
-void put_blast(Writer& w) {
+void put_blast(SceneWriter& w) {
   w.line("[[script.blast]]");
   w.number("time_s", w.between(0, 1.5));
-  w.vector("at", place(w, 4, 0, 3));
+  w.vector("at", random_position(w, 4, 0, 3));
   w.number("radius_m", w.between(0.5, 6));
   w.number("impulse_Ns_m2", w.between(10, 8000));
 }
 
-void put_wrecking_ball(Writer& w) {
-  const Vec3 hook = place(w, 3, 5, 8);
+void put_wrecking_ball(SceneWriter& w) {
+  const Vec3 hook = random_position(w, 3, 5, 8);
   w.line("[[script.wrecking_ball]]");
   w.vector("hangs_from", hook);
   w.vector("from", hook + 4 * Vec3(w.chance(0.5) ? 1 : -1, w.between(-1, 0.2), w.between(-1, 1)));
@@ -220,14 +220,14 @@ void put_wrecking_ball(Writer& w) {
   w.word("name", w.name());
 }
 
-void put_script(Writer& w) {
+void put_script(SceneWriter& w) {
   for (int i = w.whole(1, 5); i > 0; --i) put_shot(w);
   if (w.chance(0.4)) put_blast(w);
   if (w.chance(0.2)) put_wrecking_ball(w);
 }
 
-/// Boxes and bricks of steel along z, and balls, in the plane.
-void put_planar(Writer& w) {
+/// Writes stacks and brick walls of steel, and balls, for a planar scene.
+void put_planar(SceneWriter& w) {
   for (int i = w.whole(1, 4); i > 0; --i) {
     w.line("[[solid]]");
     const bool wall = w.chance(0.5);
@@ -250,7 +250,7 @@ void put_planar(Writer& w) {
 }  // namespace
 
 RandomScene random_scene(std::uint64_t seed) {
-  Writer w(seed);
+  SceneWriter w(seed);
   RandomScene scene{"made", "", "made.toml", w.one_of(kPresets)};
   if (w.chance(0.25)) {
     std::vector<scenes::CatalogEntry> shipped = scenes::catalog();

@@ -1,4 +1,4 @@
-// Scenes by chance, as files that a user could have written.
+// Random scenes, as the text of a scene file.
 #pragma once
 
 #include <cstdint>
@@ -6,17 +6,16 @@
 
 namespace sunder::fuzz {
 
-/// A scene file and how it is run.
+/// Text of a scene file, and the options of its run.
 struct RandomScene {
-  std::string name;  ///< Of the shipped scene that it is, or "made".
+  std::string name;  ///< Name of the shipped scene, or "made".
   std::string text;
-  std::string file;  ///< What it is called when it is read: its folder is where meshes are.
+  std::string file;  ///< Path of the scene file; meshes are in its folder.
   std::string preset;
 };
 
-/// The same for the same seed: one of those shipped, or walls, columns, glass, meshes and what
-/// hangs in joints, somewhere; shots, blasts and drives; in the plane at times. All of it is
-/// allowed.
+/// Returns the valid scene of a seed: a shipped scene with random shots, blasts and wrecking balls;
+/// or a scene of random structures, meshes and jointed balls; or a planar scene.
 RandomScene random_scene(std::uint64_t seed);
 
 }  // namespace sunder::fuzz

@@ -1,4 +1,4 @@
-// Runs a fuzz target on every file of a folder: what was ever found stays fixed, with any compiler.
+// Runs a fuzz target on each file of a folder, with any compiler, so that bugs found stay fixed.
 // Usage: fuzz_replay TARGET FOLDER. With libFuzzer (SUNDER_FUZZ) it is the fuzzer of SUNDER_FUZZED.
 #include <algorithm>
 #include <cstdio>
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   std::sort(files.begin(), files.end());
   for (const std::filesystem::path& file : files) {
     std::printf("%s\n", file.c_str());
-    std::fflush(stdout);  // names the culprit if the next line aborts
+    std::fflush(stdout);  // so that the output names this file if the target aborts
     std::ifstream in(file, std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
     const std::vector<std::uint8_t> data(bytes.begin(), bytes.end());

@@ -1,10 +1,10 @@
-// Fires at random at random scenes, one after another, and holds every frame to what must be so:
-// everything is finite, mass is kept, limits hold, and memory does not grow.
+// Runs random scenes with random shots, one after another, and checks every frame: all values are
+// finite, mass is conserved, limits hold, and memory does not grow.
 //
 //   soak [--time S | --scenes N] [--seed FIRST] [--out FOLDER]
 //
-// The scene under way lies in FOLDER/soak.toml, with the command that runs it: what ends the
-// program leaves it there. Exit code 1 where something is not as it must be.
+// The scene that is running is in FOLDER/soak.toml, with the command that runs it, and stays there
+// if the program crashes. The exit code is 1 if a check fails.
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,10 +31,11 @@ extern "C" int malloc_trim(std::size_t pad);  // of <malloc.h>
 namespace sunder::fuzz {
 namespace {
 
-constexpr int kMostFrames = 180;    // of a scene
-constexpr double kMassOff = 1e-9;   // of all there is
-constexpr double kLongRun_s = 300;  // from here on, memory is held to what it was
-constexpr double kMemoryGrows = 1.05, kBuffers_MiB = 8;  // by so much, and so much
+constexpr int kMaxFrames = 180;          // largest number of frames of a scene
+constexpr double kMassTolerance = 1e-9;  // relative
+constexpr double kLongRun_s = 300;       // shortest run whose memory is checked
+/// Largest growth of memory in a long run: a factor, and an addition to it.
+constexpr double kMaxMemoryGrowth = 1.05, kMemoryAllowance_MiB = 8;
 
 struct Options {
   double time_s = 0;
@@ -54,7 +55,7 @@ double seconds() {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Memory in use, in MiB, but for what the heap keeps for later; 0 where nobody says.
+/// Returns the resident memory in MiB, after free memory of the heap is returned; 0 if unknown.
 double resident_MiB() {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -65,8 +66,8 @@ double resident_MiB() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-/// What is wrong with a frame; empty if nothing.
-std::string fault(const Frame& frame, const Limits& limits, double mass_kg) {
+/// Returns a description of the first fault of a frame, or an empty string.
+std::string find_fault(const Frame& frame, const Limits& limits, double mass_kg) {
   for (const FrameBody& body : frame.bodies) {
     const bool finite = body.X_WB.position.allFinite() && body.velocity_W.allFinite() &&
                         body.angular_velocity_W.allFinite() &&
@@ -78,7 +79,7 @@ std::string fault(const Frame& frame, const Limits& limits, double mass_kg) {
   for (const FrameDust& puff : frame.dust)
     if (!puff.position_W.allFinite()) return "dust is not finite";
   const FrameReport& report = frame.report;
-  if (!(std::abs(report.mass_kg - mass_kg) <= kMassOff * mass_kg))
+  if (!(std::abs(report.mass_kg - mass_kg) <= kMassTolerance * mass_kg))
     return "mass is " + std::to_string(report.mass_kg) + ", was " + std::to_string(mass_kg);
   if (!std::isfinite(report.kinetic_J)) return "energy is not finite";
   if (report.counts.bodies > limits.bodies) return "more bodies than limits.bodies";
@@ -87,21 +88,21 @@ std::string fault(const Frame& frame, const Limits& limits, double mass_kg) {
   return {};
 }
 
-/// What went wrong with a scene; empty if nothing.
+/// Runs a scene; returns a description of its first fault, or an empty string.
 std::string run(const RandomScene& given, Tally& tally) {
   Scene scene = scenes::parse_scene(given.text, given.file, {given.preset, {}});
   Limits limits = scene.limits;
-  // What is shot comes whatever there is.
+  // Shots are added even if there are limits.bodies bodies.
   for (const Shot& shot : scene.shots)
     limits.bodies += 1 + static_cast<std::uint32_t>(shot.links.size());
   const auto simulation = scenes::make_simulation(std::move(scene));
   double mass_kg = 0;
-  for (int i = 0; i < kMostFrames; ++i) {
+  for (int i = 0; i < kMaxFrames; ++i) {
     const FramePtr frame = simulation->next();
     if (!frame) break;
     if (i == 0) mass_kg = frame->report.mass_kg;
-    const std::string wrong = fault(*frame, limits, mass_kg);
-    if (!wrong.empty()) return "frame " + std::to_string(frame->index) + ": " + wrong;
+    const std::string fault = find_fault(*frame, limits, mass_kg);
+    if (!fault.empty()) return "frame " + std::to_string(frame->index) + ": " + fault;
     ++tally.frames;
     tally.breaks += frame->breaks.size();
     tally.limits_hit += frame->report.limits_hit;
@@ -129,31 +130,33 @@ void print(const Tally& tally, double memory_MiB) {
 }
 
 int soak(const Options& options) {
-  const std::filesystem::path under_way = std::filesystem::path(options.out) / "soak.toml";
+  const std::filesystem::path scene_path = std::filesystem::path(options.out) / "soak.toml";
   Tally tally;
-  double first_MiB = 0, last_MiB = 0, told_s = 0;
+  double first_MiB = 0, last_MiB = 0, printed_s = 0;
   for (int i = 0; options.scenes > 0 ? i < options.scenes : seconds() < options.time_s; ++i) {
     const int seed = options.seed + i;
     const RandomScene scene = random_scene(static_cast<std::uint64_t>(seed));
-    write_scene(under_way, scene, seed);
-    std::string wrong;
+    write_scene(scene_path, scene, seed);
+    std::string fault;
     try {
-      wrong = run(scene, tally);
+      fault = run(scene, tally);
     } catch (const InputError& error) {
-      wrong = error.what();
+      fault = error.what();
     }
-    if (!wrong.empty()) {
-      std::fprintf(stderr, "seed %d: %s; see %s\n", seed, wrong.c_str(), under_way.c_str());
+    if (!fault.empty()) {
+      std::fprintf(stderr, "seed %d: %s; see %s\n", seed, fault.c_str(), scene_path.c_str());
       return 1;
     }
     last_MiB = resident_MiB();
     if (seconds() < options.time_s / 6) first_MiB = std::max(first_MiB, last_MiB);
-    if (seconds() > told_s + 30) print(tally, last_MiB), told_s = seconds();
+    if (seconds() > printed_s + 30) print(tally, last_MiB), printed_s = seconds();
   }
   print(tally, last_MiB);
   for (const auto& [name, count] : tally.by_name) std::printf("%5d %s\n", count, name.c_str());
-  std::filesystem::remove(under_way);
-  if (options.time_s < kLongRun_s || last_MiB <= kMemoryGrows * first_MiB + kBuffers_MiB) return 0;
+  std::filesystem::remove(scene_path);
+  if (options.time_s < kLongRun_s ||
+      last_MiB <= kMaxMemoryGrowth * first_MiB + kMemoryAllowance_MiB)
+    return 0;
   std::fprintf(stderr, "memory grew from %.0f to %.0f MiB\n", first_MiB, last_MiB);
   return 1;
 }

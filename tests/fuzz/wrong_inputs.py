@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the program on random wrong inputs, the same each time. Each must be refused: exit code 1 or
-2, a message of a few lines that names what is wrong, no file left behind, and none changed.
+"""Runs the program on random wrong inputs, the same for the same seed. Each must be refused with exit
+code 1 or 2 and a short message that names the mistake; no file may be left behind or changed.
 
-Usage: wrong_inputs.py PROGRAM GOLDENS [SEED [CASES]]. Read first: main(), then check(). The makers
-of cases are the functions behind it; each returns the words of a command line, and words of which
-one has to be in the message.
+Usage: wrong_inputs.py PROGRAM GOLDENS [SEED [CASES]]. Begin reading at main(), then check(). Each
+function in MAKERS returns the words of a wrong command line, and words of which the message must
+contain one.
 """
 import hashlib
 import json
@@ -19,13 +19,13 @@ import tomllib
 from pathlib import Path
 
 CASES = 260
-LINES, CHARACTERS = 12, 3000  # of a message, at most
+LINES, CHARACTERS = 12, 3000  # largest lengths of a message
 
 NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "x", "1e400", "1,5", "0x10", "1 2", "--", "''", "∞", "1_000"]
 NO_COUNTS = NO_NUMBERS + ["1.5", "1e3", "99999999999999999999", "1e24"]
 
 MESH = "fracture t.obj --pattern voronoi:4"
-# Commands that are well but for the option that is added, the option, and values it cannot have.
+# Valid commands, an option to add to each, and invalid values of the option.
 OPTIONS = [
     ("simulate a.toml", "--frames", NO_COUNTS + ["-1", "0", "500"]),
     ("simulate a.toml", "--threads", NO_COUNTS + ["-1", "1025"]),
@@ -77,7 +77,7 @@ OPTIONS = [
     ("golden record n a.toml 0 --folder g --size 32x32", "--view-mode", ["pretty"]),
 ]
 
-# Keys of scenes, and values that each cannot have.
+# Keys of scenes, and invalid values of each.
 KEYS = [
     ("accuracy.dt_s", ["nan", "0", "-1", "0.01", "'fast'", "[1]"]),
     ("accuracy.substeps", ["0", "-1", "1.5", "1e9", "true", "nan"]),
@@ -99,7 +99,7 @@ KEYS = [
     ("view.eye", ["[0, 0]", "[nan, 0, 0]", "'above'"]),
 ]
 
-# Commands that end with a file of a kind, by that kind's ending; read whole before anything else.
+# Commands that take a file as their last word and read it first, by the ending of the file.
 READERS = {
     "toml": ["check", "simulate", "render -o x.png"],
     "take": ["simulate a.toml --verify", "render -o x.png"],
@@ -145,7 +145,7 @@ COMMANDS = ["list", "check", "simulate", "render", "bench", "trade", "fracture",
 
 
 def misspelt(word, chance):
-    """The word with a letter changed, left out, doubled or swapped; never the word itself."""
+    """Returns the word with one letter changed, left out, doubled or inserted."""
     while True:
         at = chance.randrange(len(word))
         letter = chance.choice(string.ascii_lowercase)
@@ -190,10 +190,10 @@ def a_misspelt_key(chance, folder):
 
 
 def a_file_cut_short(chance, folder):
-    """A file that says how long it is, or that is TOML or JSON, without its end."""
+    """Makes a truncated file of a kind that has its length, or of TOML or JSON."""
     name = chance.choice(["k.take", "s.frame", "m.glb", "m.stl", "a.toml", "old.json", "b.case"])
     whole = (folder / name).read_bytes()
-    first_frame = 60  # of a take: frames up to there can be read
+    first_frame = 60  # bytes: a recording cut after its first frame can still be played
     end = chance.randrange(first_frame if name == "k.take" else len(whole) - 1)
     part = whole[:end]
     if name == "a.toml":
@@ -221,7 +221,7 @@ def a_file_of_another_kind(chance, folder):
 
 
 def made(chance, folder, kind, content):
-    """A file with that content, and a command that reads it; the folder is compared after that."""
+    """Writes a file with that content, before the folder is compared; returns a command that reads it."""
     (folder / f"wrong.{kind}").write_bytes(content)
     return [*chance.choice(READERS[kind]).split(), f"wrong.{kind}"]
 
@@ -269,7 +269,7 @@ def binary_stl():
 
 
 def make_inputs(program, goldens, folder):
-    """Files that are as they should be, and some that are not."""
+    """Writes valid and invalid input files."""
     (folder / "a.toml").write_text('[scene]\ndescription = "a block"\nduration_s = 0.2\n[[solid]]\nstructure = "box"\n'
                                    'size_m = [1, 1, 1]\nmaterial = "concrete"\n')
     (folder / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
@@ -297,13 +297,13 @@ def run(program, folder, words):
 
 
 def contents(folder):
-    """Everything that lies there, with a hash of each file."""
+    """Returns all paths in the folder, with a hash of each file."""
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
             for path in sorted(folder.rglob("*"))}
 
 
 def check(program, folder, words, named):
-    """What is wrong with how the program took it; empty if nothing is."""
+    """Runs the command; returns the mistakes in how the program refused it, or an empty string."""
     before = contents(folder)
     try:
         done = run(program, folder, words)

@@ -1,4 +1,4 @@
-// Steel that bends, in small random scenes, and what watches it.
+// Small random scenes of yielding steel, and a simulation that records their joints and sums.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace sunder::tests {
 
 inline constexpr MaterialIndex kDuctile{0};
 
-/// Counts sections that begin to flow, and knows who is joined.
-class JointWatch final : public bench::ForwardingPhysics {
+/// Physics that counts plastic joints and records the bodies of each joint.
+class JointRecorder final : public bench::ForwardingPhysics {
  public:
   using ForwardingPhysics::ForwardingPhysics;
   JointId join(const JointDesc& joint) override {
@@ -39,15 +39,16 @@ class JointWatch final : public bench::ForwardingPhysics {
     physics_->cut(id);
     std::erase_if(joints_, [&](const Joined& joined) { return joined.id == id; });
   }
-  /// Whether a joint holds what is gone.
-  bool any_dangles() const {
+  /// True if a joint has an end at a body that was removed.
+  bool any_end_removed() const {
     const BodyStates states = physics_->states();
     return std::ranges::any_of(joints_, [&](const Joined& joined) {
       return !states.holds(joined.ends[0]) || !states.holds(joined.ends[1]);
     });
   }
   std::size_t joined() const { return joints_.size(); }
-  std::size_t hinges = 0;  ///< Made, or made anew as one side was taken in by another.
+  std::size_t hinges = 0;  ///< Number of plastic joints made, including those made again
+                           ///< when one side is merged into another body.
 
  private:
   struct Joined {
@@ -57,18 +58,18 @@ class JointWatch final : public bench::ForwardingPhysics {
   std::vector<Joined> joints_;
 };
 
-/// A run, and the sums over its bodies as they move.
-struct Bending {
+/// Simulation of yielding steel, with its joints, sums over bodies, and number of breaks.
+struct BendingRun {
   SpyPhysics* spy = nullptr;
-  JointWatch* joints = nullptr;
+  JointRecorder* joints = nullptr;
   std::unique_ptr<Simulation> simulation;
   FramePtr frame;
   std::size_t breaks = 0;
 
-  explicit Bending(const Scene& scene) {
+  explicit BendingRun(const Scene& scene) {
     auto watched = std::make_unique<SpyPhysics>(solver::make_rigid_physics({scene.gravity_W}));
     spy = watched.get();
-    auto joined = std::make_unique<JointWatch>(std::move(watched));
+    auto joined = std::make_unique<JointRecorder>(std::move(watched));
     joints = joined.get();
     simulation =
         std::make_unique<Simulation>(scene, std::move(joined), fracture::make_pattern_breaker());
@@ -82,7 +83,7 @@ struct Bending {
                   body.velocity_W.allFinite() && body.angular_velocity_W.allFinite())
           << body.key << " at " << frame->time_s;
     }
-    ASSERT_FALSE(joints->any_dangles());
+    ASSERT_FALSE(joints->any_end_removed());
     for (const Instance& instance : frame->instances)
       ASSERT_LT(instance.mesh.value, frame->meshes->size());
   }
@@ -91,7 +92,7 @@ struct Bending {
     for (const FrameBody& body : frame->bodies) hashes.push_back(hash_body(body));
     return hashes;
   }
-  /// What moves, and what has been taken from that for good.
+  /// Returns kinetic energy, potential energy and plastic work, in J.
   double energy_J() const {
     const FrameReport& report = frame->report;
     return report.kinetic_J + report.potential_J + report.plastic_J;
@@ -112,7 +113,7 @@ inline Scene steel_scene(Random& random) {
   return scene;
 }
 
-/// The box from `low` to `high` in cells of about that size.
+/// Appends the box from `low` to `high`, in cells of about `cell_m`, to `parts`.
 inline void add(const Vec3& low, const Vec3& high, double cell_m, bool anchored,
                 std::vector<Part>& parts) {
   const Vec3 size = high - low;
@@ -132,11 +133,11 @@ inline Compound bar(double length_m, double width_m, double cell_m) {
   return fracture::make_compound(std::move(parts));
 }
 
-/// Bars that tumble into each other and are hit by balls.
+/// Returns a scene of spinning bars that collide and are hit by balls.
 inline Scene thrown_bars(std::uint64_t seed) {
   Random random(seed, 11);
   Scene scene = steel_scene(random);
-  if (random.below(4) == 0) {  // it can break as well
+  if (random.below(4) == 0) {  // the steel can also break by a pattern
     scene.materials[0].pattern.kind = PatternSpec::Kind::kVoronoi;
     scene.materials[0].pattern.cells = 8;
     scene.materials[0].toughness_J_m2 = 20000;
@@ -160,7 +161,7 @@ inline Scene thrown_bars(std::uint64_t seed) {
   return scene;
 }
 
-/// Frames on their feet and bars that fall onto them.
+/// Returns a scene of an anchored frame that two bars fall onto and a ball hits.
 inline Scene frames_and_bars(std::uint64_t seed) {
   Random random(seed, 12);
   Scene scene = steel_scene(random);
@@ -188,15 +189,16 @@ inline Scene frames_and_bars(std::uint64_t seed) {
   return scene;
 }
 
-/// A beam held at one end that sags under its own weight until it has hardened enough.
-inline Scene sagging_beam(double part) {
+/// Returns a scene of a cantilever that sags by its self-weight until it has hardened enough. The
+/// moment at its root is `utilisation` times the plastic moment of its section.
+inline Scene sagging_beam(double utilisation) {
   Random random(1);
   Scene scene = steel_scene(random);
   Material& steel = scene.materials[0];
   const double long_m = 2, w = 0.2;
   scene.gravity_W = Vec3(0, -9.81, 0);
   const double moment_Nm = steel.density_kg_m3 * w * w * 9.81 * long_m * long_m / 2;
-  steel.yield_Pa = moment_Nm / (part * w * w * w / 4);
+  steel.yield_Pa = moment_Nm / (utilisation * w * w * w / 4);
   steel.hardening_Pa = 20 * steel.yield_Pa;
   steel.elongation = 1;
   std::vector<Part> parts;

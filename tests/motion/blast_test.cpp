@@ -1,5 +1,4 @@
-// What a blast bends beyond its strength breaks: where the moment is largest, at the impulse that
-// theory has.
+// Tests that a blast breaks a wall by bending, at the place and impulse of beam theory.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,8 +11,8 @@ namespace {
 constexpr double kHeight_m = 4, kThickness_m = 0.4;
 constexpr double kDensity = 2000, kYoungs_Pa = 1e10, kTensile_Pa = 1e6;
 
-/// A wall that stands in its foundation, without weight, and a blast so far away that it is plane.
-Scene struck_wall(double impulse_Ns_m2) {
+/// Returns a scene without gravity of a wall, anchored at its foot, and a blast with a plane wave.
+Scene blasted_wall(double impulse_Ns_m2) {
   Scene scene = bare_scene(1.0 / 120, 10, kDensity);
   Material& material = scene.materials[0];
   material.pattern.kind = PatternSpec::Kind::kNone;
@@ -32,10 +31,10 @@ Scene struck_wall(double impulse_Ns_m2) {
   return scene;
 }
 
-/// Uniform impulse per area at which a cantilever's root reaches the strength σ in the shape that
-/// a uniform load bends it to: with the deflection u of a load w, ∫u = wL⁵/20EI and
-/// ∫u² = 13w²L⁹/3240(EI)², the momentum in that shape bends it by λu, λ² = w∫u / ρA∫u²; the moment
-/// at the root is λwL²/2.
+/// Returns the uniform impulse per area, in N s/m², at which the root of a cantilever reaches the
+/// strength σ in the shape of its deflection by a uniform load. The deflection u of a load w has
+/// ∫u = wL⁵/20EI and ∫u² = 13w²L⁹/3240(EI)²; momentum in that shape deflects the wall by λu,
+/// λ² = w∫u / ρA∫u²; the moment at the root is λwL²/2.
 double limit_Ns_m2() {
   const double shape = std::sqrt(3240.0 / (20 * 13)) / 2 * 6 / std::sqrt(12.0);
   return kTensile_Pa * kThickness_m / (shape * std::sqrt(kYoungs_Pa / kDensity));
@@ -43,7 +42,7 @@ double limit_Ns_m2() {
 
 TEST(Blast, BreaksAWallAtItsFootAtTheImpulseThatBendsItToItsStrength) {
   const auto breaks = [](double impulse_Ns_m2) {
-    Trial run(struck_wall(impulse_Ns_m2));
+    Trial run(blasted_wall(impulse_Ns_m2));
     while (run.frame->time_s < 0.2) run.step();
     for (const BreakEvent& event : run.breaks) EXPECT_LT(event.point_W.y(), kHeight_m / 4);
     return !run.breaks.empty();
@@ -52,8 +51,8 @@ TEST(Blast, BreaksAWallAtItsFootAtTheImpulseThatBendsItToItsStrength) {
   EXPECT_TRUE(breaks(1.12 * limit_Ns_m2()));
 }
 
-TEST(Blast, BendsWhatAPatternHasBrokenAsWell) {
-  Scene scene = struck_wall(20 * limit_Ns_m2());
+TEST(Blast, AlsoBendsAWallThatAPatternHasBroken) {
+  Scene scene = blasted_wall(20 * limit_Ns_m2());
   scene.blasts[0].center_W = Vec3(-1, kHeight_m - 0.5, 0.5);
   scene.blasts[0].radius_m = 20;
   Material& material = scene.materials[0];

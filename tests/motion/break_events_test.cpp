@@ -1,5 +1,4 @@
-// Events of breaks name bodies: every one leads to a body of the frame before, and to those of the
-// frame that it is in.
+// Tests that each break event names a body of the frame before, and the bodies that came from it.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -23,16 +22,16 @@ Keys keys_of(const Frame& frame) {
   return keys;
 }
 
-/// Checks the events of a frame in which nothing bends, becomes one again or is let go. Returns the
-/// number of bodies that were born and broken in it.
+/// Checks the events of a frame in which no body bends, is rejoined or is released. Returns the
+/// number of bodies that were created and broken within the frame.
 std::size_t expect_attributed(const Frame& before, const Frame& frame) {
   const Keys last = keys_of(before), now = keys_of(frame);
-  Keys born;
+  Keys created;
   std::size_t short_lived = 0;
   for (std::size_t i = 0; i < frame.breaks.size(); ++i) {
     const BreakEvent& event = frame.breaks[i];
     const bool is_known = last.contains(event.parent_key);
-    EXPECT_TRUE(is_known || born.contains(event.parent_key)) << event.parent_key;
+    EXPECT_TRUE(is_known || created.contains(event.parent_key)) << event.parent_key;
     EXPECT_TRUE(last.contains(event.previous_key)) << event.previous_key;
     EXPECT_LT(event.material.value, frame.materials->size());
     EXPECT_LE(event.child_keys.size(), event.pieces);
@@ -43,15 +42,15 @@ std::size_t expect_attributed(const Frame& before, const Frame& frame) {
                   std::any_of(frame.breaks.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                               frame.breaks.end(), breaks))
           << child;
-      born.insert(child);
+      created.insert(child);
     }
   }
   for (const std::uint64_t key : now)
-    EXPECT_TRUE(last.contains(key) || born.contains(key)) << key << " is in no break event";
+    EXPECT_TRUE(last.contains(key) || created.contains(key)) << key << " is in no break event";
   return short_lived;
 }
 
-/// Blocks in flight that strike each other, at eight steps a frame.
+/// Returns a scene of blocks, each hit by a ball, with eight steps a frame.
 Scene collision(std::uint64_t seed) {
   Scene scene = bare_scene(1.0 / 480, 5, 2000);
   scene.materials[0].smallest_break_m3 = 1e-6;
@@ -80,10 +79,10 @@ TEST(BreakEvents, NameBodiesOfTheFrameBeforeOrOfEarlierEvents) {
   EXPECT_GT(short_lived, 0u) << "no body was created and broken within a frame";
 }
 
-TEST(BreakEvents, OfWhatBendsLeadToTheFrameBefore) {
+TEST(BreakEvents, OfBendingBarsNameBodiesOfTheFrameBefore) {
   std::size_t events = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Bending bending(thrown_bars(seed));
+    BendingRun bending(thrown_bars(seed));
     for (int i = 0; i < 30; ++i) {
       const Keys last = keys_of(*bending.frame);
       bending.step();

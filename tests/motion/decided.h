@@ -1,4 +1,4 @@
-// What decides a break: scenes of one blow against what it takes by hand.
+// A check of scenes with one impact against the energy of their break.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace sunder::tests {
 
-/// A wall across one axis, anchored at its rim.
+/// Returns a wall normal to `axis`, anchored at its rim.
 inline Solid wall(int axis, const Vec3& center_W, double side_m, double thickness_m) {
   Vec3 size = Vec3::Constant(side_m);
   size[axis] = thickness_m;
@@ -31,10 +31,10 @@ inline double kinetic_J(double mass_kg, double speed_m_s) {
   return 0.5 * mass_kg * speed_m_s * speed_m_s;
 }
 
-/// An impact of which `work_J` arrives at what may break, as `scene_of(speed)` has it: what it
-/// takes to break it decides whether it breaks, and, where that is all there is, is all that is
-/// lost. It takes the same however hard it is struck, within `share`: what swings meets it at a
-/// place of its own.
+/// Checks a scene `scene_of(speed)` whose impact does the work `work_J(speed)` on the breakable
+/// solid. Expects a break if and only if that work exceeds the energy of the break, which must be
+/// equal at all speeds, up to the fraction `share` (a body on an arc hits at a slightly different
+/// point). If `is_all`, expects that the scene loses exactly the energy of the break.
 inline void expect_decided_by_work(const std::function<Scene(double)>& scene_of,
                                    const std::function<double(double)>& work_J, bool is_all = true,
                                    double share = 0) {

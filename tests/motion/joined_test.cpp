@@ -1,4 +1,4 @@
-// What hangs in joints hits with what hangs on it, at any length of a step.
+// Tests that a jointed body hits with the mass that is joined to it, at any time step.
 #include <cmath>
 #include <numbers>
 
@@ -14,20 +14,21 @@ INSTANTIATE_TEST_SUITE_P(Steps, JoinedAtAnyStep, testing::Values(1.0 / 60, 1.0 /
 
 constexpr double kSteel_kg_m3 = 8000;
 
-/// A sphere of that mass.
+/// Returns a steel sphere of `mass_kg`.
 Ball ball_of(double mass_kg, const Vec3& center_W, const Vec3& velocity_W) {
   const double volume_m3 = mass_kg / kSteel_kg_m3;
   return steel_ball(std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi)), center_W, velocity_W);
 }
 
-/// A pane across x with its face at x = 0, that little of flies off.
+/// Returns a scene of a very light pane normal to x, with its face at x = 0.
 Scene scene_of_pane(double dt_s, double toughness_J_m2 = 300) {
   Scene scene = bare_scene(dt_s, toughness_J_m2, 1e-3);
   scene.solids = {wall(0, Vec3(0.025, 0, 0), 1, 0.05)};
   return scene;
 }
 
-constexpr double kOnArc = 0.005;  // what turns meets the pane a little elsewhere
+/// Relative tolerance of energies: a body on an arc hits at a slightly different point.
+constexpr double kArcTolerance = 0.005;
 
 Joint joint_of(JointKind kind, std::optional<std::uint32_t> a, std::optional<std::uint32_t> b,
                const Vec3& at_W, const Vec3& to_W = Vec3::Zero()) {
@@ -38,7 +39,7 @@ Joint joint_of(JointKind kind, std::optional<std::uint32_t> a, std::optional<std
   return joint;
 }
 
-TEST_P(JoinedAtAnyStep, ABallHitsWithTheMassOfWhatItIsFixedTo) {
+TEST_P(JoinedAtAnyStep, ABallHitsWithTheMassOfTheBallFixedToIt) {
   for (const JointKind kind : {JointKind::kFixed, JointKind::kDistance}) {
     const auto scene_of = [&](double speed) {
       Scene scene = scene_of_pane(GetParam());
@@ -49,7 +50,7 @@ TEST_P(JoinedAtAnyStep, ABallHitsWithTheMassOfWhatItIsFixedTo) {
       return scene;
     };
     expect_decided_by_work(
-        scene_of, [](double speed) { return kinetic_J(10, speed); }, true, kOnArc);
+        scene_of, [](double speed) { return kinetic_J(10, speed); }, true, kArcTolerance);
   }
 }
 
@@ -59,15 +60,15 @@ TEST_P(JoinedAtAnyStep, APendulumHitsAtTheBottomWithTheMassOfItsBall) {
       Scene scene = scene_of_pane(GetParam());
       scene.balls = {ball_of(5, Vec3(-0.1, 0, 0), Vec3(speed, 0, 0))};
       scene.joints = {joint_of(kind, 1u, {}, Vec3(-0.1, 0, 0), Vec3(0, 8, 0))};
-      scene.balls[0].velocity_W.y() = 0.1 / 8 * speed;  // on its circle
+      scene.balls[0].velocity_W.y() = 0.1 / 8 * speed;  // tangential to its circle
       return scene;
     };
     expect_decided_by_work(
-        scene_of, [](double speed) { return kinetic_J(5, speed); }, true, kOnArc);
+        scene_of, [](double speed) { return kinetic_J(5, speed); }, true, kArcTolerance);
   }
 }
 
-TEST_P(JoinedAtAnyStep, AChainThatComesEndOnHitsWithAllOfItsMass) {
+TEST_P(JoinedAtAnyStep, AChainMovingLengthwiseHitsWithAllOfItsMass) {
   constexpr int kLinks = 8;
   const auto scene_of = [&](double speed) {
     Scene scene = scene_of_pane(GetParam());
@@ -81,21 +82,21 @@ TEST_P(JoinedAtAnyStep, AChainThatComesEndOnHitsWithAllOfItsMass) {
     return scene;
   };
   expect_decided_by_work(
-      scene_of, [](double speed) { return kinetic_J(kLinks, speed); }, true, kOnArc);
+      scene_of, [](double speed) { return kinetic_J(kLinks, speed); }, true, kArcTolerance);
 }
 
-/// A door in the plane z = 0, with its hinge along y at x = −1, about to hit, or be hit, at x = 0.
+/// Returns a door in the plane z = 0, with its hinge along y at x = −1 and its free edge at x = 0.
 Solid door(MaterialIndex material) {
   return box_solid(Vec3(-0.5, 0, 0), Vec3(1, 0.5, 0.05), 0, material);
 }
 
-/// Of the door about its hinge.
+/// Returns the moment of inertia of the door about its hinge, in kg m².
 double door_kgm2(double density_kg_m3) {
   const double kg = density_kg_m3 * 1 * 0.5 * 0.05;
   return kg * (1.0 / 3 + 0.05 * 0.05 / 12);
 }
 
-TEST_P(JoinedAtAnyStep, ADoorHitsWithWhatItTurnsWith) {
+TEST_P(JoinedAtAnyStep, ADoorHitsWithItsInertiaAboutTheHinge) {
   const auto scene_of = [&](double speed) {
     Scene scene = bare_scene(GetParam(), 300, 1e-3);
     scene.solids = {wall(2, Vec3(-0.1, 0, 0.1), 1, 0.05), door(kSteel)};
@@ -107,12 +108,12 @@ TEST_P(JoinedAtAnyStep, ADoorHitsWithWhatItTurnsWith) {
     scene.joints = {hinge};
     return scene;
   };
-  // What is left of the pane stops it next.
+  // The remains of the pane stop the door afterwards, so the final energy is not checked.
   expect_decided_by_work(
-      scene_of, [](double w) { return 0.5 * door_kgm2(8000) * w * w; }, false, kOnArc);
+      scene_of, [](double w) { return 0.5 * door_kgm2(8000) * w * w; }, false, kArcTolerance);
 }
 
-TEST_P(JoinedAtAnyStep, ADoorThatIsHitAtItsEdgeGivesAsItTurns) {
+TEST_P(JoinedAtAnyStep, ADoorHitAtItsEdgeTakesTheWorkOfItsEffectiveMass) {
   const double arm_m = 0.97, ball = 100;
   const auto scene_of = [&](double speed) {
     Scene scene = bare_scene(GetParam(), 300, 500);

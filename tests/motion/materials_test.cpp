@@ -1,4 +1,4 @@
-// What a material is decides how a solid of several breaks.
+// Tests of breaks of a solid of several materials.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kToughness = 40;
 
-/// A brittle cube between two larger ones of steel, in flight.
+/// Returns a scene of a brittle cube bonded between two larger cubes of steel, without gravity.
 Scene cube_between_steel() {
   Scene scene = bare_scene(1.0 / 120, kToughness, 2000);
   scene.materials[kBrittle.value].smallest_break_m3 = 5;  // it breaks once
@@ -38,7 +38,7 @@ TEST(Materials, ACrackAlongTheBondToSteelTakesTheToughnessOfTheOtherSide) {
   EXPECT_GT(run.breaks[0].pieces, 5u);
 }
 
-TEST(Materials, ABlastBreaksWhatBreaksWhereItPressesSteelHarder) {
+TEST(Materials, ABlastBreaksTheBrittleCubeAlthoughItLoadsTheSteelMore) {
   Scene scene = cube_between_steel();
   scene.blasts = {{0, Vec3(1.2, 1.2, 0), 4, 5000}};
   Trial run(scene);

@@ -1,4 +1,4 @@
-// What the script moves by keyframes breaks what is in its way, and is let go in time.
+// Tests of bodies that the script moves along keyframes: impacts, release, joints, blasts.
 #include <gtest/gtest.h>
 
 #include "engine/base/hash.h"
@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kDt_s = 1.0 / 120;
 
-/// One path for the first solid.
+/// Returns `scene` with its first solid moved along `path`.
 Scene moved(Scene scene, const Path& path) {
   scene.moves = {{{0}, path, std::nullopt}};
   return scene;
 }
 
-/// From rest to that shift, on a straight line.
+/// Returns a straight path from rest to `shift_W` at `time_s`.
 Path straight(double time_s, const Vec3& shift_W) {
   Path path;
   path.keys = {{time_s, shift_W}};
@@ -25,7 +25,7 @@ Path straight(double time_s, const Vec3& shift_W) {
   return path;
 }
 
-TEST(Moves, ItIsAlwaysWhereItsPathIs) {
+TEST(Moves, ABodyFollowsItsPathExactly) {
   Scene scene = bare_scene(kDt_s, 1, 2000);
   scene.gravity_W = Vec3(0, -9.81, 0);
   scene.solids = {box_solid(Vec3(1, 2, 3), Vec3(1, 2, 1))};
@@ -44,7 +44,7 @@ TEST(Moves, ItIsAlwaysWhereItsPathIs) {
   EXPECT_TRUE(trial.body(0).velocity_W.isZero(0)) << "the body rests at its last key";
 }
 
-TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
+TEST(Moves, ARamBreaksTheSolidThatItHitsAndNotItself) {
   Scene scene = bare_scene(kDt_s, 20, 1000);
   scene.solids = {box_solid(Vec3(-2, 0, 0), Vec3(1, 1, 1)),
                   box_solid(Vec3(1, 0, 0), Vec3(1, 1, 1))};
@@ -52,8 +52,8 @@ TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
   while (trial.frame->time_s < 0.4) {
     trial.step();
     for (const FrameBody& body : trial.frame->bodies) {
-      const Vec3 way_W = body.X_WB.position - trial.body(0).X_WB.position;
-      EXPECT_TRUE(body.key == 0 || way_W.cwiseAbs().maxCoeff() > 0.48)
+      const Vec3 distance_W = body.X_WB.position - trial.body(0).X_WB.position;
+      EXPECT_TRUE(body.key == 0 || distance_W.cwiseAbs().maxCoeff() > 0.48)
           << "a piece is inside the ram";
     }
   }
@@ -61,12 +61,12 @@ TEST(Moves, ARamBreaksWhatItHitsAndNotItself) {
   for (const BreakEvent& event : trial.breaks) EXPECT_NE(event.parent_key, 0u);
   EXPECT_NEAR(trial.body(0).velocity_W.x(), 10, 1e-9)
       << "the velocity of the ram does not depend on what it broke";
-  const double blow_J = 0.5 * 1000 * 10 * 10;  // what a plastic one makes of 1000 kg
-  EXPECT_GT(trial.kinetic_J(), 0.9 * blow_J) << "all pieces reach the speed of the ram";
-  EXPECT_LT(trial.kinetic_J(), 2 * blow_J) << "and hardly faster";
+  const double plastic_impact_J = 0.5 * 1000 * 10 * 10;  // 1000 kg at the speed of the ram
+  EXPECT_GT(trial.kinetic_J(), 0.9 * plastic_impact_J) << "all pieces reach the speed of the ram";
+  EXPECT_LT(trial.kinetic_J(), 2 * plastic_impact_J) << "and hardly faster";
 }
 
-TEST(Moves, OneThatIsTooSlowToBreakAnythingPushes) {
+TEST(Moves, ASlowBodyPushesWithoutBreaking) {
   Scene scene = bare_scene(kDt_s, 1e7, 1000);
   scene.solids = {box_solid(Vec3(-1.2, 0, 0), Vec3(1, 1, 1)),
                   box_solid(Vec3(0, 0, 0), Vec3(1, 1, 1))};
@@ -76,7 +76,7 @@ TEST(Moves, OneThatIsTooSlowToBreakAnythingPushes) {
   EXPECT_NEAR(trial.body(1).velocity_W.x(), 1, 0.05);
 }
 
-TEST(Moves, WhatIsLetGoFliesOnAsFastAsItWasAndBreaksAsAnyOther) {
+TEST(Moves, AReleasedBodyKeepsItsVelocityAndCanBreak) {
   Scene scene = bare_scene(kDt_s, 20, 1000);
   scene.gravity_W = Vec3(0, -9.81, 0);
   scene.solids = {box_solid(Vec3::Zero(), Vec3(0.5, 0.5, 0.5)),
@@ -92,7 +92,7 @@ TEST(Moves, WhatIsLetGoFliesOnAsFastAsItWasAndBreaksAsAnyOther) {
   EXPECT_EQ(trial.breaks[0].parent_key, 0u);
 }
 
-TEST(Moves, AChainHangsFromACraneUntilTheCraneIsLetGoAndThenStill) {
+TEST(Moves, AChainStaysJoinedToACraneBeforeAndAfterItsRelease) {
   Scene scene = bare_scene(kDt_s, 1e7, 1000);
   scene.gravity_W = Vec3(0, -9.81, 0);
   scene.solids = {box_solid(Vec3(0, 0.2, 0), Vec3(1, 0.4, 1), 0, kSteel)};
@@ -110,8 +110,8 @@ TEST(Moves, AChainHangsFromACraneUntilTheCraneIsLetGoAndThenStill) {
   path.keys = {{2, Vec3(4, 1, 0)}, {4, Vec3(0, 0, 2), Vec3(0, 1, 0)}};
   scene.moves = {{{0}, path, std::nullopt, 3}};
   Trial trial(scene);
-  /// Of the joints: from the foot of one to the head of the next.
-  const auto most_apart_m = [&] {
+  /// Returns the largest gap between the foot of a body and the head of the next, in m.
+  const auto max_gap_m = [&] {
     double most_m = 0;
     for (int i = 0; i < kLinks; ++i) {
       const Pose above = trial.body(static_cast<std::uint64_t>(i)).X_WB,
@@ -125,7 +125,7 @@ TEST(Moves, AChainHangsFromACraneUntilTheCraneIsLetGoAndThenStill) {
   while (trial.frame->time_s < 2.9) {
     trial.step();
     lost += trial.frame->report.joints_lost;
-    EXPECT_LT(most_apart_m(), 0.01) << trial.frame->time_s;
+    EXPECT_LT(max_gap_m(), 0.01) << trial.frame->time_s;
     const PathKey key = path.at(trial.frame->time_s);
     const Vec3 at_W = Vec3(0, 0.2, 0) + key.shift_W;
     EXPECT_LT((trial.body(0).X_WB.position - at_W).norm(), 1e-6)
@@ -134,11 +134,11 @@ TEST(Moves, AChainHangsFromACraneUntilTheCraneIsLetGoAndThenStill) {
   EXPECT_GT(trial.body(kLinks).X_WB.position.x(), 0.5) << "it is taken along";
   while (trial.frame->time_s < 4) trial.step();
   EXPECT_LT(trial.body(0).X_WB.position.y(), -2) << "all falls";
-  EXPECT_LT(most_apart_m(), 0.01);
+  EXPECT_LT(max_gap_m(), 0.01);
   EXPECT_EQ(lost + trial.frame->report.joints_lost, 0u);
 }
 
-TEST(Moves, ABlastNeitherBreaksNorMovesIt) {
+TEST(Moves, ABlastNeitherBreaksNorMovesABodyOnItsPath) {
   Scene scene = bare_scene(kDt_s, 20, 1000);
   scene.solids = {box_solid(Vec3::Zero(), Vec3(1, 1, 1)), box_solid(Vec3(3, 0, 0), Vec3(1, 1, 1))};
   scene.materials[0].smallest_break_m3 = 0.1;
@@ -150,7 +150,7 @@ TEST(Moves, ABlastNeitherBreaksNorMovesIt) {
   EXPECT_NEAR(trial.body(0).X_WB.position.y(), trial.frame->time_s, 1e-9);
 }
 
-TEST(Moves, TheSameBitsForAnyThreads) {
+TEST(Moves, TheBitsAreEqualForAnyNumberOfThreads) {
   const auto run = [](int threads) {
     set_threads(threads);
     Scene scene = bare_scene(kDt_s, 30, 1000);

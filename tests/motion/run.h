@@ -1,4 +1,4 @@
-// Small scenes with the real solver and the real fracture, for tests of destruction in motion.
+// Small scenes with the real solver and breaker, for tests of destruction in motion.
 #pragma once
 
 #include <functional>
@@ -15,8 +15,8 @@ namespace sunder::tests {
 
 inline constexpr MaterialIndex kBrittle{0}, kSteel{1};
 
-/// Without weight and without ground in reach: what is left is what hits do. Material 0 breaks into
-/// Voronoi cells, material 1 never.
+/// Returns a scene without gravity and with the ground far away. Material 0 breaks into Voronoi
+/// cells; material 1 never breaks.
 inline Scene bare_scene(double dt_s, double toughness_J_m2, double density_kg_m3) {
   Scene scene;
   Material brittle;
@@ -40,7 +40,7 @@ inline Scene bare_scene(double dt_s, double toughness_J_m2, double density_kg_m3
   return scene;
 }
 
-/// A box with sides along the axes; of material 1, or breakable.
+/// Returns a box with sides along the axes, of material 0 unless given.
 inline Solid box_solid(const Vec3& center_W, const Vec3& size, std::uint8_t anchored = 0,
                        MaterialIndex material = kBrittle) {
   Compound box = fracture::box_compound(-0.5 * size, 0.5 * size, anchored);
@@ -54,7 +54,7 @@ inline Ball steel_ball(double radius_m, const Vec3& center_W, const Vec3& veloci
   return {"ball", radius_m, kSteel, center_W, velocity_W};
 }
 
-/// A run, and what its frames have said so far.
+/// Simulation, with the breaks of its frames so far.
 struct Trial {
   std::unique_ptr<Simulation> simulation;
   FramePtr frame;
@@ -73,11 +73,12 @@ struct Trial {
     breaks.insert(breaks.end(), frame->breaks.begin(), frame->breaks.end());
   }
   double kinetic_J() const { return frame->report.kinetic_J; }
-  /// Until `done` says so, or `most_s` have passed.
-  void until(double most_s, const std::function<bool(const FrameBody&)>& done, std::uint64_t key) {
-    while (frame->time_s < most_s && !done(body(key))) step();
+  /// Steps until `done(body(key))`, or until the time `max_s`.
+  void step_until(double max_s, const std::function<bool(const FrameBody&)>& done,
+                  std::uint64_t key) {
+    while (frame->time_s < max_s && !done(body(key))) step();
   }
-  /// Keys count solids first, then balls. They stay.
+  /// Returns the body of `key`, or an empty one if it is gone. Keys count solids first, then balls.
   const FrameBody& body(std::uint64_t key) const {
     for (const FrameBody& body : frame->bodies) {
       if (body.key == key) return body;

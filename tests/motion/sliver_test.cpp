@@ -1,5 +1,5 @@
-// Glass under fire with nothing too small to be a body: slivers of any shape, however thin. They
-// stay finite, fly no faster than what was put in allows, and balance the ledger.
+// Tests of glass hit by many balls, with pieces of any size as bodies: thin pieces (slivers) stay
+// finite and bounded in speed, and mass, momentum and energy are accounted for.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kBall_m_s = 40;
 
-/// A pane 2 cm thick, anchored at its foot, of which every splinter breaks again and is a body.
+/// Returns a scene of a pane 2 cm thick, anchored at its foot, that twelve balls hit. Pieces of any
+/// size are bodies and nearly all can break again.
 Scene pane_under_fire(std::uint64_t seed, PatternSpec::Kind pattern) {
   Scene scene = bare_scene(1.0 / 60, 8, 2500);
   Material& glass = scene.materials[0];
@@ -33,30 +34,30 @@ Scene pane_under_fire(std::uint64_t seed, PatternSpec::Kind pattern) {
   return scene;
 }
 
-void expect_bounded(const Trial& run, double put_in_J) {
+void expect_bounded(const Trial& run, double input_J) {
   for (const FrameBody& body : run.frame->bodies) {
     ASSERT_TRUE(body.X_WB.position.allFinite() && body.velocity_W.allFinite() &&
                 body.angular_velocity_W.allFinite() && body.X_WB.rotation.coeffs().allFinite())
         << body.key;
-    // A light body struck by a heavy one leaves at twice its speed, and may be struck again; one
-    // that is pinched between two is squeezed out faster than these close, as no friction holds it.
+    // A light body hit by a heavy one leaves at twice its speed, and may be hit again. A body
+    // pinched between two others without friction is ejected faster than these close.
     ASSERT_LT(body.velocity_W.norm(), 7 * kBall_m_s) << body.key << " at " << run.frame->time_s;
   }
   EXPECT_EQ(run.frame->report.frozen, 0u);
   EXPECT_LT(run.frame->report.momentum_residual, 1e-3);
-  EXPECT_LE(run.kinetic_J() + run.broken_J, 1.001 * put_in_J) << run.frame->time_s;
+  EXPECT_LE(run.kinetic_J() + run.broken_J, 1.001 * input_J) << run.frame->time_s;
 }
 
-TEST(Slivers, OfAPaneUnderFireStayWithinWhatWasPutIn) {
+TEST(Slivers, OfAPaneUnderFireStayFiniteAndGainNoEnergy) {
   for (const auto pattern : {PatternSpec::Kind::kVoronoi, PatternSpec::Kind::kWeb}) {
     Trial run(pane_under_fire(5, pattern));
     const double mass_kg = run.frame->report.mass_kg;
-    // What comes off the pane begins to mass_of.
-    const double put_in_J = run.kinetic_J() + run.frame->report.potential_J + mass_kg * 9.81;
+    // Pieces that come off the pane add their potential energy.
+    const double input_J = run.kinetic_J() + run.frame->report.potential_J + mass_kg * 9.81;
     std::size_t most = 0;
     while (run.frame->time_s < 0.8) {
       run.step();
-      ASSERT_NO_FATAL_FAILURE(expect_bounded(run, put_in_J));
+      ASSERT_NO_FATAL_FAILURE(expect_bounded(run, input_J));
       EXPECT_NEAR(run.frame->report.mass_kg, mass_kg, 1e-6 * mass_kg);
       most = std::max(most, run.frame->bodies.size());
     }

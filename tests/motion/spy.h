@@ -1,4 +1,4 @@
-// Physics that moves bodies as another does, and notes what each call changed.
+// Physics that forwards to another and records mass, momenta and energy around its calls.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace sunder::tests {
 
-/// What moves, summed up; spin is about the origin of W.
+/// Sums over moving bodies; `spin` is the angular momentum about the origin of W.
 struct Motions {
   double mass_kg = 0, kinetic_J = 0;
   Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
@@ -19,11 +19,11 @@ struct Motions {
 
 class SpyPhysics final : public bench::ForwardingPhysics {
  public:
-  /// Of one step's breaks: before the first, and when all are done.
+  /// Sums before the first and after the last break of a step.
   struct Balance {
     Motions before, after;
   };
-  /// Of one body that gave way to others.
+  /// Sums before and after a call of replace() that removed bodies.
   using Replacement = Balance;
 
   using ForwardingPhysics::ForwardingPhysics;
@@ -63,9 +63,9 @@ class SpyPhysics final : public bench::ForwardingPhysics {
     return all;
   }
 
-  Balance breaks;  ///< Of the last step.
+  Balance breaks;  ///< Sums around the breaks of the last step.
   std::vector<Replacement> replacements;
-  Motions before_solve, after_solve;  ///< Of the last solve.
+  Motions before_solve, after_solve;  ///< Sums around the last solve.
 
  private:
   struct Body {
@@ -90,7 +90,7 @@ class SpyPhysics final : public bench::ForwardingPhysics {
     all.spin += s.X_WB.position.cross(p) + s.X_WB.rotation * spin_B;
   }
 
-  std::map<std::uint32_t, Body> bodies_;  ///< By slot; those that move.
+  std::map<std::uint32_t, Body> bodies_;  ///< Bodies that are not static, by slot.
   bool in_step_ = false;
 };
 

@@ -1,7 +1,7 @@
-"""Which lines of a source may be changed, how, and the text that holds line and mutant.
+"""Finds mutants of the lines of a source, and makes text that contains both line and mutant.
 
-Read first: candidates(). Nothing here knows C++: a line is read by the spaces that clang-format
-puts around operators, and what does not compile is drawn again by mutate.py.
+Begin reading at candidates(). There is no parser of C++: operators are found by the spaces that
+clang-format puts around them, and mutate.py replaces mutants that do not compile by others.
 """
 import random
 import re
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 SPACE = "::sunder::mutants::"
 
-# Operator -> what it becomes, and the type of mutant.h that holds both.
+# Operator -> its replacements, each with the type of mutant.h that has both.
 BINARY = {
     "+": [("-", "PlusToMinus")], "-": [("+", "MinusToPlus")],
     "*": [("/", "TimesToOver")], "/": [("*", "OverToTimes")],
@@ -20,13 +20,13 @@ BINARY = {
     ">=": [(">", "AtLeastToMore"), ("<=", "AtLeastToAtMost")],
     "==": [("!=", "EqualToUnequal")], "!=": [("==", "UnequalToEqual")],
 }
-# Lines that say nothing which a test could miss: declarations, checks, messages, memory, tracing.
+# Lines whose change no test should notice: declarations, checks, messages, memory, tracing.
 SKIPPED = re.compile(r"^\s*#|\b(constexpr|static_assert|SUNDER_CHECK|reserve|shrink_to_fit|trace|"
                      r"template|using|typedef|namespace|throw|InputError|friend|default|TraceScope|"
                      r"for_chunks|prefetch|__builtin_prefetch|requires|case)\b|"
                      r"^\s*(public|private):")
 
-# Statements that are not dropped: what declares would be missing, what controls has others within.
+# Statements that are not dropped: declarations, and control statements, which contain others.
 DECLARATION = re.compile(r"[\w:]+(<.*>)?(::\w+)?( ?[&*]+ ?| )\w+( = |$|[{(,;\[])")
 NOTHING = re.compile(r"return( (\{\}|false|0u?|0\.0f?|nullptr|\w+::Zero\(\)))?")
 KEYWORDS = ("if", "for", "while", "do", "else", "goto", "const", "auto", "struct", "switch",
@@ -35,7 +35,7 @@ KEYWORDS = ("if", "for", "while", "do", "else", "goto", "const", "auto", "struct
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change of one line; `edit(k)` is the text for [start, end) that holds both."""
+    """One change of one line; `edit(k)` is the text for [start, end) with original and mutant."""
     path: str
     line: int
     kind: str
@@ -53,7 +53,7 @@ class Mutant:
 
 
 def masked(text):
-    """The text with comments, strings and preprocessor lines blanked, character by character."""
+    """Returns the text with comments, strings and preprocessor lines blanked, of equal length."""
     def blank(match):
         return re.sub(r"[^\n]", " ", match.group())
 
@@ -66,7 +66,7 @@ def masked(text):
 
 
 def in_bodies(code):
-    """For each character, whether it is within the braces of a function."""
+    """Returns for each character 1 if it is within the braces of a function, else 0."""
     inside, stack, head = bytearray(len(code)), [False], 0
     for i, c in enumerate(code):
         inside[i] = stack[-1]
@@ -82,7 +82,7 @@ def in_bodies(code):
 
 
 def matching(code, i, step):
-    """The place of the bracket that goes with the one at i."""
+    """Returns the index of the bracket that matches the one at i."""
     depth = 0
     while 0 <= i < len(code):
         if code[i] in "([{":
@@ -96,14 +96,14 @@ def matching(code, i, step):
 
 
 def operand_end(code, i, stops):
-    """Where the expression that begins at i ends: at one of `stops`, or an unmatched bracket."""
+    """Returns the end of the expression that begins at i: one of `stops` or a bracket."""
     while i < len(code) and code[i] not in ")]}" and not re.match(stops, code[i:i + 3]):
         i = matching(code, i, 1) + 1 if code[i] in "([{" else i + 1
     return i
 
 
 def operand_start(code, i, stops):
-    """Where the expression that ends before i begins."""
+    """Returns the beginning of the expression that ends before i."""
     while i > 0 and code[i - 1] not in "([{" and not re.search(stops, code[max(0, i - 7):i]):
         i = matching(code, i - 1, -1) if code[i - 1] in ")]" else i - 1
         if code[i - 1] == "}":
@@ -116,12 +116,12 @@ def in_one_line(text):
 
 
 def keep_lines(new, old):
-    """`new` with as many line ends as `old`."""
+    """Returns `new` with the number of line ends of `old`."""
     return in_one_line(new) + "\n" * old.count("\n")
 
 
 class Source:
-    """A file, and the mutants that it offers."""
+    """A file and its possible mutants."""
 
     def __init__(self, path, text):
         self.path, self.text, self.code = path, text, masked(text)
@@ -227,7 +227,7 @@ class Source:
                        keep_lines(f"{{ if ({SPACE}on<{{k}}>()) return; {text}; }}", text))
 
     def in_block(self, i):
-        """Whether the innermost bracket around i is a brace: not so within a for."""
+        """True if the innermost bracket around i is a brace, not that of a for statement."""
         depth = 0
         for c in reversed(self.code[max(0, i - 2000):i]):
             depth += (c in ")]}") - (c in "([{")
@@ -236,7 +236,7 @@ class Source:
         return False
 
     def controlled(self, close):
-        """Whether the bracket that closes here is that of an if, a for or a while."""
+        """True if the bracket that closes here is that of an if, a for or a while."""
         opening = matching(self.code, close, -1)
         return bool(opening and re.search(r"\b(if|for|while)\s*$", self.code[:opening]))
 
@@ -251,7 +251,7 @@ class Source:
 
 
 def candidates(path, text):
-    """What a file offers: of each line its code, and lists of mutants of one family."""
+    """Returns for each line with mutants its code, and its mutants in one list for each family."""
     source = Source(path, text)
     code_lines = source.code.split("\n")
     lines = {}
@@ -267,8 +267,8 @@ def candidates(path, text):
 
 
 def draw(texts, folders, seed):
-    """Mutants without end, each of a line drawn evenly from all that offer one. A line is drawn by
-    what it says: what changes elsewhere does not move it."""
+    """Yields one mutant of each line with mutants, in random order. The random number of a line
+    depends on its text only, so that changes elsewhere do not change the order."""
     drawn, alike = [], Counter()
     for path in sorted(texts):
         inside = path.startswith(tuple(f"{folder}/" for folder in folders))

@@ -1,19 +1,19 @@
-// What mutate.py writes into the lines it draws, so that one build holds every mutant: the
-// environment variable SUNDER_MUTANT says which one is on. An operator is wrapped by standing
-// twice, `a + plus<7>() + b`, which keeps its precedence; both operands are evaluated as they were.
+// Functions that mutate.py writes into the lines it changes, so that one build has every mutant:
+// the environment variable SUNDER_MUTANT is the number of the active one. An operator is written
+// twice, `a + plus<7>() + b`, which keeps its precedence and the evaluation of both operands.
 #pragma once
-#pragma GCC system_header  // no warnings: a comparison with 4 is one with any number here
-#pragma GCC diagnostic ignored "-Wparentheses"  // a == b == c, in what includes this
+#pragma GCC system_header  // suppresses warnings about comparisons with constants
+#pragma GCC diagnostic ignored "-Wparentheses"  // a == b == c, in files that include this one
 
 #include <concepts>
 #include <cstdlib>
 
 namespace sunder::mutants {
 
-inline constexpr int kMost = 4096;
+inline constexpr int kMaxMutants = 4096;  ///< Number of mutants, at most.
 inline int chosen = -1;
-/// Set where a mutant's line was run; read by reach.h.
-inline unsigned char reached[kMost];
+/// Set to 1 when a mutant's line is run; read by reach.h.
+inline unsigned char reached[kMaxMutants];
 
 [[gnu::constructor(101)]] inline void choose() {
   if (const char* number = std::getenv("SUNDER_MUTANT")) chosen = std::atoi(number);
@@ -27,7 +27,7 @@ SUNDER_MUTANT_INLINE bool on() {
   return chosen == k;
 }
 
-/// A value of its own: Eigen's expressions are evaluated, as their operands may be gone later.
+/// Returns a copy; expressions of Eigen are evaluated, as their operands may not exist later.
 template <class T>
 SUNDER_MUTANT_INLINE auto value(const T& x) {
   if constexpr (requires { x.eval(); }) {
@@ -55,7 +55,7 @@ struct Half {
   }
 };
 
-// Operators are numbered types, `Plus<7>`; what was and what is instead.
+// Defines an operator as a numbered type, `Plus<7>`, with the original and the mutated operation.
 #define SUNDER_MUTANT_OPERATOR(Name, OUTER, WAS, IS)                                    \
   template <int k>                                                                      \
   struct Name {                                                                         \
@@ -93,7 +93,7 @@ SUNDER_MUTANT_OPERATOR(EqualToUnequal, ==, ==, !=)
 SUNDER_MUTANT_OPERATOR(UnequalToEqual, !=, !=, ==)
 #undef SUNDER_MUTANT_OPERATOR
 
-/// `Negative<7>() * x` for -x, or x.
+/// `Negative<7>() * x` is -x, or x if mutant 7 is active.
 template <int k>
 struct Negative {
   template <class T>
@@ -103,7 +103,7 @@ struct Negative {
   }
 };
 
-/// `sum<7>(a) += b` for a += b, or a -= b.
+/// `sum<7>(a) += b` is a += b, or a -= b if mutant 7 is active.
 template <int k, class T>
 struct Sum {
   T& to;
@@ -129,7 +129,7 @@ SUNDER_MUTANT_INLINE Sum<k, T> sum(T& to) {
   return {to};
 }
 
-/// `first<7>(std::max)(a, b)`, or a.
+/// `Extreme<7, true>()(a, b)` is std::max(a, b), or a if mutant 7 is active.
 template <int k, bool kMax>
 struct Extreme {
   template <class T>
@@ -147,12 +147,12 @@ template <int k>
 SUNDER_MUTANT_INLINE bool boolean(bool x) {
   return on<k>() != x;
 }
-/// A whole number, or the next.
+/// Returns a whole number, or the next one if the mutant is active.
 template <int k, class T>
 SUNDER_MUTANT_INLINE T next(T x) {
   return on<k>() ? static_cast<T>(x + 1) : x;
 }
-/// A number, or half as much again.
+/// Returns a number, or 1.5 times it if the mutant is active.
 template <int k, class T>
 SUNDER_MUTANT_INLINE T more(T x) {
   return on<k>() ? x * static_cast<T>(1.5) : x;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Would the tests notice? Changes a hundred lines, one at a time, and runs the tests.
+"""Mutation testing: changes a hundred lines, one at a time, and runs the tests.
 
-Usage: mutate.py [--seed N] [--count N] [--survivors]. tests/mutation/README.md says more. Read
-first: main(). All mutants are built at once (mutant.h); which one is on is chosen at run time.
+Usage: mutate.py [--seed N] [--count N] [--survivors]. tests/mutation/README.md says more. Begin
+reading at main(). All mutants are built at once (mutant.h); one is chosen at run time.
 """
 import argparse
 import json
@@ -21,9 +21,9 @@ from draw import draw
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("solver", "fracture", "engine/world")
-MEMORY_BYTES = 6 << 30  # of a test program: a mutant may fill vectors without end
+MEMORY_BYTES = 6 << 30  # limit of a test program: a mutant may fill vectors without end
 LABELS = ("unit", "property", "truth", "extreme")
-LEFT_OUT = ("render_test", "scenes_collapse_test")  # of another room; minutes
+LEFT_OUT = ("render_test", "scenes_collapse_test")  # of another module; takes minutes
 FIRST_LINES = '#include "tests/mutation/{}"\n#line 1\n'
 
 
@@ -36,10 +36,10 @@ class Tree:
                                 check=True, capture_output=True, text=True).stdout.splitlines()
         self.texts = {name: (ROOT / name).read_bytes() for name in listed
                       if (ROOT / name).is_file()}
-        self.programs = find_programs(self.texts)  # name -> where its first source is
+        self.programs = find_programs(self.texts)  # name -> path of its first source
 
     def write(self, mutants):
-        """Writes what differs, with the numbered mutants in place."""
+        """Writes the files that differ, with the numbered mutants in place."""
         texts, by_path = dict(self.texts), {}
         for number, mutant in mutants.items():
             by_path.setdefault(mutant.path, []).append((number, mutant))
@@ -58,7 +58,7 @@ class Tree:
             meshes.symlink_to(ROOT.parent / "shared")
 
     def make(self, jobs):
-        """Builds; what the compiler said where it failed, else nothing."""
+        """Builds; returns the output of a failed build, or an empty string."""
         if not (self.build / "build.ninja").exists():
             subprocess.run(["cmake", "--preset", "release"], cwd=self.source, check=True,
                            stdout=subprocess.DEVNULL)
@@ -69,14 +69,14 @@ class Tree:
 
 
 def edited(text, edits):
-    """The text with the mutants in it, on the lines that they were on."""
+    """Returns the text with the mutants in it, with unchanged line numbers."""
     for number, mutant in sorted(edits, key=lambda edit: -edit[1].start):
         text = text[:mutant.start] + mutant.edit(number) + text[mutant.end:]
     return FIRST_LINES.format("mutant.h") + text
 
 
 def find_programs(texts):
-    """The test programs, and the first source of each."""
+    """Returns the test programs, and the first source of each."""
     programs = {}
     for path, text in texts.items():
         if re.fullmatch(r"tests/\w+/CMakeLists.txt", path):
@@ -89,13 +89,13 @@ def find_programs(texts):
 
 
 def fits(mutant, others):
-    """Whether no other mutant changes the same text."""
+    """True if no other mutant changes the same text."""
     return all(other.path != mutant.path or other.end <= mutant.start or other.start >= mutant.end
                for other in others)
 
 
 def drawn(texts, seeds, count, wrong):
-    """The first `count` mutants of each seed that compile and leave each other alone, by number."""
+    """Returns, by number, the first `count` mutants of each seed that compile without overlap."""
     mutants = {}
     for place, seed in enumerate(seeds):
         number, last = place * 1000, len(mutants) + count
@@ -110,7 +110,7 @@ def drawn(texts, seeds, count, wrong):
 
 
 def build(tree, seeds, count, jobs):
-    """The mutants, built. What does not compile is noted beside the tree, for the next time."""
+    """Builds and returns the mutants. Those that do not compile are listed in wrong.json."""
     note = tree.source.parent / "wrong.json"
     wrong = set(json.loads(note.read_text())) if note.exists() else set()
     while True:
@@ -130,8 +130,8 @@ def build(tree, seeds, count, jobs):
 
 
 def run(tree, program, tests=None, most_s=600, **environment):
-    """Whether the program's tests pass within `most_s` of processor; none is run after the first
-    that fails."""
+    """Returns True if the program's tests pass within `most_s` of processor time, and the first
+    test that fails, after which none is run."""
     environment = {k: str(v) for k, v in environment.items()}
     environment |= {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive",
                     "GTEST_FILTER": ":".join(tests or ["*"]), "GTEST_FAIL_FAST": "1",
@@ -154,8 +154,8 @@ def run(tree, program, tests=None, most_s=600, **environment):
 
 
 def find_reach(tree, programs, jobs):
-    """For each mutant, the tests that pass its line, as (milliseconds, program, test). Programs
-    that are new are run without any mutant: all must pass."""
+    """Returns for each mutant the tests that run its line, as (milliseconds, program, test). New
+    programs are run without any mutant: all tests must pass."""
     def one(program):
         path, part = tree.build / f"{program}.reach", tree.build / f"{program}.part"
         if not path.exists() or path.stat().st_mtime < (tree.build / program).stat().st_mtime:
@@ -163,7 +163,7 @@ def find_reach(tree, programs, jobs):
             passed, failed = run(tree, program, SUNDER_REACH=part)
             if not passed:
                 raise RuntimeError(f"{program} fails without any mutant: {failed}")
-            part.rename(path)  # whole, whatever stops this
+            part.rename(path)  # never a part of a file, even if interrupted
         return program, path.read_text()
     reach = {}
     with ThreadPoolExecutor(jobs) as pool:
@@ -176,7 +176,7 @@ def find_reach(tree, programs, jobs):
 
 
 def rounds(tests, longest_s):
-    """The tests in rounds by what they take, each a program and some of its tests."""
+    """Yields rounds of tests, the quickest first: a program, some of its tests, a time limit."""
     for shortest_ms, longest_ms in ((0, 100), (100, 1000), (1000, 1000 * longest_s)):
         of_program = {}
         for ms, program, test in sorted(tests):
@@ -189,7 +189,7 @@ def rounds(tests, longest_s):
 
 
 def try_mutant(tree, number, tests, longest_s):
-    """What caught the mutant, or nothing."""
+    """Returns the test that caught the mutant, or an empty string."""
     for program, names, most_s in rounds(tests, longest_s):
         passed, failed = run(tree, program, names, most_s, SUNDER_MUTANT=number)
         if not passed:
@@ -198,7 +198,7 @@ def try_mutant(tree, number, tests, longest_s):
 
 
 def equivalents():
-    """Text of a mutant -> why it is none, from equivalent.txt: path | before | after | reason."""
+    """Returns mutant -> reason why it is equivalent, from equivalent.txt."""
     known = {}
     for line in (Path(__file__).parent / "equivalent.txt").read_text().splitlines():
         if line and not line.startswith("#"):

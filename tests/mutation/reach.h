@@ -1,5 +1,5 @@
-// Writes, after each test of a program of mutate.py, which mutants its lines passed: to the file
-// that SUNDER_REACH names, a test a line: name, milliseconds of processor, numbers.
+// Writes after each test the numbers of the mutants whose lines it ran, to the file SUNDER_REACH:
+// one line for each test, with its name, milliseconds of processor time, and the numbers.
 #pragma once
 
 #include <cstdlib>
@@ -26,7 +26,7 @@ class Reach : public testing::EmptyTestEventListener {
   void OnTestEnd(const testing::TestInfo& test) override {
     file_ << test.test_suite_name() << '.' << test.name() << ' '
           << 1000 * (std::clock() - start_) / CLOCKS_PER_SEC;
-    for (int k = 0; k < kMost; ++k)
+    for (int k = 0; k < kMaxMutants; ++k)
       if (reached[k]) file_ << ' ' << k;
     file_ << std::endl;
   }
@@ -35,7 +35,7 @@ class Reach : public testing::EmptyTestEventListener {
   std::clock_t start_ = 0;
 };
 
-inline const bool listens = [] {
+inline const bool is_listening = [] {
   if (const char* path = std::getenv("SUNDER_REACH"))
     testing::UnitTest::GetInstance()->listeners().Append(new Reach(path));
   return true;

@@ -1,7 +1,7 @@
-// Symptom: the halves of a dry arch hung in the air if its keystone was removed just before its
+// Symptom: the halves of a dry arch stayed in the air if its keystone was removed just before its
 // stones fell asleep. Cause: the time at rest counted from before the removal, so that stones fell
-// asleep in the first steps of their fall, and the forces of those steps became the forces at rest
-// that later ones were compared with. Fixed in 12ff63c.
+// asleep in the first steps of their fall, and later forces were compared with the forces of those
+// steps as those at rest. Fixed in 12ff63c.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kStones = 9, kKeystone = kStones / 2;
 
-/// The farthest that a stone from `first` up to `last` falls within a second and a half.
+/// Returns the largest distance that a stone of [first, last) has fallen from its height `from_m`.
 double fall_m(const RigidWorld& world, const std::vector<BodyId>& stones,
               const std::vector<double>& from_m, int first, int last) {
   double most_m = 0;
@@ -28,10 +28,10 @@ double fall_m(const RigidWorld& world, const std::vector<BodyId>& stones,
 
 TEST(RegressSleep, BothHalvesOfAnArchFallAtWhateverStepItLosesItsKeystone) {
   for (const Preset& preset : kPresets) {
-    const bool slow = preset.dt_s < 1.0 / 400;
+    const bool has_short_steps = preset.dt_s < 1.0 / 400;
     const int first = static_cast<int>(std::lround(0.4 / preset.dt_s));
     const int last = static_cast<int>(std::lround(0.6 / preset.dt_s));
-    for (int steps = first; steps <= last; steps += slow ? 4 : 1) {
+    for (int steps = first; steps <= last; steps += has_short_steps ? 4 : 1) {
       RigidOptions options;
       options.sweeps = preset.sweeps;
       RigidWorld world(options);

@@ -1,6 +1,6 @@
 // Symptom: two bodies that met off-centre at 3 m/s lost some hundredths of their angular momentum.
-// Cause: the two arms of a contact were gathered when the step began, and ended at two points as
-// soon as the bodies moved on; an impulse at two places is a torque from nowhere. Fixed in dc4d495.
+// Cause: the two lever arms of a contact were computed when the step began, and ended at two points
+// as soon as the bodies moved; opposite impulses at two points add a torque. Fixed in dc4d495.
 #include <gtest/gtest.h>
 
 #include "bench/truths/presets.h"
@@ -18,7 +18,7 @@ TEST(RegressContact, BodiesThatMeetOffCentreKeepTheirAngularMomentum) {
   world.add(W::with_friction(a, 0.5));
   world.add(W::with_friction(W::box(Vec3(0.3, 0.5, 0.3), Vec3(0, 0.2, 0.1)), 0.5));
   const Vec3 before = world.angular_momentum();
-  const double scale = world.momentum().norm() * 0.2;  // what flies, and how far off
+  const double scale = world.momentum().norm() * 0.2;  // momentum times offset in m
   bool met = false;
   for (int i = 0; i < 60; ++i) met |= world.step(1.0 / 60, 4).contacts > 0;
   EXPECT_TRUE(met);

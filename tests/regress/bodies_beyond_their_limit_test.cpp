@@ -1,5 +1,5 @@
-// Two boxes were struck at once: each had room for its pieces below limits.bodies, and both
-// together had not, but broke. What several breaks of one impact make is now counted together.
+// Symptom: two boxes hit at once both broke, and their pieces exceeded limits.bodies. Cause: each
+// break alone was compared with the limit. The pieces of all breaks of an impact are now added up.
 #include <algorithm>
 #include <cstdint>
 
@@ -47,7 +47,7 @@ position = [0, 0.05, 0.5]
 velocity = [0, 0, -20]
 )";
 
-TEST(BodiesBeyondTheirLimit, WhatBreaksTogetherStaysBelowTheLimitTogether) {
+TEST(BodiesBeyondTheirLimit, SimultaneousBreaksStayBelowTheLimitTogether) {
   const auto simulation = scenes::make_simulation(scenes::parse_scene(kScene, "two.toml"));
   std::uint32_t most = 0, limits_hit = 0;
   while (const FramePtr frame = simulation->next()) {

@@ -1,6 +1,6 @@
-// Symptom: what came of a decomposed mesh fell apart at the first blow, far from it as well. Cause:
-// when a compound named its planes anew, the caps of visual meshes kept the old names, so that no
-// two of them touched and there was no bond. Fixed in 827e1ab.
+// Symptom: the convexes of a decomposed mesh fell apart at the first impact, even far from it.
+// Cause: when a compound gave its planes new ids, the caps of visual meshes kept the old ones, so
+// that no two caps touched and there was no bond. Fixed in 827e1ab.
 #include <gtest/gtest.h>
 
 #include "fracture/vacd/vacd.h"
@@ -9,7 +9,7 @@
 namespace sunder::fracture {
 namespace {
 
-TEST(RegressCaps, PiecesOfARingHoldTogetherAllRound) {
+TEST(RegressCaps, EachConvexOfADecomposedRingHasTwoBonds) {
   PolygonMesh ring = test::torus(24, 10);
   for (PolygonMesh::Face& face : ring.faces) face.id = {}, face.kind = FaceKind::kSurface;
   RepairedMesh mesh;

@@ -1,6 +1,6 @@
-// Symptom: chips hung in the air where a wall had lost the convex that they lay on. Cause: sleeping
-// debris asked whether the body under it was still there and had not moved; what stands stays the
-// body that it was when a break takes a part of it. Fixed in bb0aa35.
+// Symptom: chips stayed in the air where a wall had lost the convex that they lay on. Cause:
+// sleeping debris checked only that the body under it existed and had not moved, but a break that
+// removes a part of a body leaves the body in place. Fixed in bb0aa35.
 #include <gtest/gtest.h>
 
 #include "solver/particles/debris.h"
@@ -15,7 +15,7 @@ void run(Debris& debris, TestObstacles& obstacles, double seconds) {
   for (int step = 0; step < seconds / kDt; ++step) debris.advance(kDt, obstacles.view());
 }
 
-TEST(RegressDebris, FallsFromWhatStandsWhenTheConvexUnderItHasComeOff) {
+TEST(RegressDebris, FallsWhenTheConvexUnderItIsRemovedFromItsBody) {
   Debris debris(10, Vec3(0, -9.81, 0));
   TestObstacles obstacles;
   obstacles.add_box(Vec3(0, 2, 0), Vec3(1, 0.1, 1), Quat::Identity());
@@ -25,7 +25,7 @@ TEST(RegressDebris, FallsFromWhatStandsWhenTheConvexUnderItHasComeOff) {
   debris.add(chip);
   run(debris, obstacles, 2);
   ASSERT_EQ(debris.ledger().awake, 0u);
-  obstacles.shapes.clear();  // the body has others, elsewhere
+  obstacles.shapes.clear();  // the body's other shapes are elsewhere
   run(debris, obstacles, 0.2);
   EXPECT_EQ(debris.ledger().awake, 0u) << "the number of edits has not changed";
   ++obstacles.bodies[0].edits;

@@ -1,6 +1,6 @@
-// Symptom: slivers of glass under fire froze what they touched, as bodies that are not finite are.
-// Cause: an edge whose ends round to one place was divided by its length, where the closest points
-// of two edges are found. Fixed in 63876fb.
+// Symptom: thin pieces of glass made the bodies that they touched not finite, so that these were
+// frozen. Cause: the closest points of two edges were found by division by the length of an edge
+// whose ends round to one point. Fixed in 63876fb.
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace sunder::solver {
 namespace {
 
-TEST(RegressSliver, EdgesOfNoLengthTouchAtAPlace) {
+TEST(RegressSliver, EdgesOfZeroLengthHaveAFiniteContactPoint) {
   const double thin_m = 1e-8;
   const Hull block(make_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), Vec3::Zero());
   const Hull pane(make_box(Vec3(-1, -thin_m, -1), Vec3(1, thin_m, 1)), Vec3::Zero());

@@ -1,5 +1,5 @@
-// Symptom: a report went on to count a load as carried over after its solid had been taken away.
-// Cause: the load stage returned before it set its count, where nothing was left that a load could
+// Symptom: reports continued to count a load as carried over after its solid had been removed.
+// Cause: the load stage returned before it set its count if no solid was left that a load could
 // break. Fixed in 648d814.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 using testing::ScriptedBreaker;
 using testing::ScriptedPhysics;
 
-/// Two boxes on top of each other, the lower one anchored.
+/// Returns two boxes on top of each other, the lower one anchored.
 Solid tower() {
   Solid solid;
   for (int i = 0; i < 2; ++i) {
@@ -24,14 +24,14 @@ Solid tower() {
   return solid;
 }
 
-TEST(RegressLoad, NoneWaitsWhereNothingIsLeftThatALoadCouldBreak) {
+TEST(RegressLoad, NoneIsCarriedOverOnceNoSolidIsLeftThatALoadCouldBreak) {
   Scene scene;
   scene.materials.resize(1);
   scene.materials[0].tensile_Pa = 1e6;
   scene.accuracy = {1.0 / 60, 1};
   scene.solids = {tower(), tower()};
   scene.removals = {{1.5 / 60, {0, 1}, {}}};
-  scene.limits.load_work_a_frame = 1;  // for one of the two
+  scene.limits.load_work_a_frame = 1;  // enough for one of the two
   auto breaker = std::make_unique<ScriptedBreaker>(1.0);
   breaker->stressed = [](const Structure&, const LoadCase& load) {
     StressResult answer;

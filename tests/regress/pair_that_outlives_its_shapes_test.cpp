@@ -1,7 +1,7 @@
-// Symptom: a cube flew through a wall. Cause: a pair that was too far apart
-// to need a look stayed in the list when its boxes had parted; shapes that went did not find it by
-// their boxes, and what came into their slots was taken for what it had been a pair with. Now a
-// pair whose boxes part goes, looked at or not.
+// Symptom: a cube flew through a wall. Cause: a pair that was too far apart for the narrow phase
+// stayed in the list after its boxes had separated. A shape that was removed did not find the pair
+// by its box, and a new shape in its slot was taken for the old one. A pair is now removed when its
+// boxes separate, whether the narrow phase needs it or not.
 #include <gtest/gtest.h>
 
 #include "bench/truths/rigid_world.h"
@@ -11,12 +11,12 @@ namespace {
 
 using W = RigidWorld;
 
-TEST(RegressPairs, OfShapesThatGoAreNotTakenForThoseOfWhatComes) {
+TEST(RegressPairs, OfRemovedShapesAreNotTakenForPairsOfNewShapes) {
   RigidOptions options;
   options.gravity_W = Vec3::Zero();
   RigidWorld world(options);
   const BodyId cube = world.add(W::box(Vec3::Constant(0.2), Vec3::Zero()));
-  // Plates that cut off corners of a box that the cube is at a corner of, too.
+  // Turned plates, whose bounding boxes overlap the cube at a corner that the plates do not reach.
   const auto plate = [](double side) {
     BodyDesc desc = W::box(Vec3(0.1, 2, 1), Vec3(0.8, 0.8 * side, 0));
     desc.X_WB.rotation = Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi * side, Vec3::UnitZ()));
@@ -29,14 +29,14 @@ TEST(RegressPairs, OfShapesThatGoAreNotTakenForThoseOfWhatComes) {
     world.physics().set_state(cube, state);
     world.step(1.0 / 60, 1);
   }
-  // Bodies where the plates were, of two shapes each, of which one stands in the way: slots are
-  // taken in some other order.
+  // Bodies in place of the plates, of two shapes each, one of which is in the cube's way: the
+  // shapes take the free slots in another order.
   const auto wall = [](double side, double x) {
     BodyDesc desc = W::fixed(W::box(Vec3::Ones(), Vec3(0.8, 0.8 * side, 0)));
     desc.shapes.push_back(desc.shapes[0]);
-    for (const double way : {0.0, 50.0}) {
-      const Vec3 middle = Vec3(x + way, 0, 0) - desc.X_WB.position;
-      desc.shapes[way > 0 ? 0 : 1].hull =
+    for (const double offset_m : {0.0, 50.0}) {
+      const Vec3 middle = Vec3(x + offset_m, 0, 0) - desc.X_WB.position;
+      desc.shapes[offset_m > 0 ? 0 : 1].hull =
           W::keep(make_box(middle - Vec3(0.1, 1, 1), middle + Vec3(0.1, 1, 1)));
     }
     return desc;

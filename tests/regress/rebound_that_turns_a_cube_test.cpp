@@ -1,6 +1,6 @@
-// Symptom: a cube that fell flat on the ground with restitution left it turning, at 4 rad/s. Cause:
-// restitution was one pass over the corners after the last substep, one after another. Fixed in
-// 87c9a90: what rebounds is struck before the sweeps, all points of a contact at once.
+// Symptom: a cube that fell flat on the ground with restitution left it spinning at 4 rad/s. Cause:
+// restitution was applied after the last substep, to one corner after another. Fixed in 87c9a90:
+// restitution is applied before the sweeps, to all points of a contact at once.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using W = RigidWorld;
 
-TEST(RegressRebound, ACubeThatFallsFlatLeavesAsItCameAndDoesNotTurn) {
+TEST(RegressRebound, ACubeThatFallsFlatReboundsWithoutSpin) {
   const double restitution = 0.6, fall_m = 1, g_m_s2 = 9.81;
   RigidWorld world;
   world.add(W::with_friction(W::ground(), 0.5, restitution));

@@ -1,5 +1,5 @@
-// Symptom: what tumbled slowly in short steps lost its angular momentum bit by bit. Cause: the
-// gyroscopic term was left out below 0.02 rad a step, but what it does adds up over turns, not over
+// Symptom: a body that tumbled slowly at short steps gradually lost angular momentum. Cause: the
+// gyroscopic term was left out below 0.02 rad a step, but its effect adds up over turns, not over
 // steps. Fixed in 34ec447.
 #include <gtest/gtest.h>
 

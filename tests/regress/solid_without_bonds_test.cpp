@@ -1,6 +1,6 @@
-// Symptom: a run crashed where a load pressed on what had no springs left. Cause: without springs
-// between nodes, a direct solve counted as dearer than the iterations that it replaces, and a
-// coarser level had no groups at all. Fixed in 3f188c8.
+// Symptom: a run crashed when a load acted on a solid that had no springs left. Cause: without
+// springs between nodes, a direct solve was estimated to cost more than the iterations that it
+// replaces, and a coarser level had no groups at all. Fixed in 3f188c8.
 #include <gtest/gtest.h>
 
 #include "fracture/stress/multigrid.h"

@@ -1,6 +1,6 @@
-// Symptom: of two blasts due in one step on one solid, only one broke it in that step; where the
-// other had tried meanwhile, it never did. Cause: impacts of blasts were kept one a solid, and
-// those dropped had been noted as tried.
+// Symptom: of two blasts due in one step on one solid, only one broke it in that step; if the other
+// had been tried in the meantime, it never broke the solid. Cause: only one impact of a blast was
+// kept per solid, and the impacts dropped had been marked as tried.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace sunder::scenes {
 namespace {
 
-/// Where a wall breaks in its first frame under these blasts, ascending along x.
+/// Returns the x of each break of a wall in its first frame under these blasts, ascending.
 std::vector<double> broken_at_x(bool anchored, std::initializer_list<double> blasts_at_x) {
   std::string text =
       "[scene]\ndescription = \"x\"\ngravity = [0, 0, 0]\n[accuracy]\ndt_s = 0.01666666667\n"
@@ -45,7 +45,7 @@ TEST(RegressBlasts, TwoInOneStepBothBreakOneSolid) {
   }
 }
 
-TEST(RegressBlasts, TheSecondAtOnePlaceBreaksWhatTheFirstHasLeft) {
+TEST(RegressBlasts, TwoAtOnePlaceBreakOneSolidTwice) {
   EXPECT_EQ(broken_at_x(false, {0, 0}).size(), 2u);
   EXPECT_EQ(broken_at_x(true, {0, 0}).size(), 2u);
 }

@@ -121,8 +121,7 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
     return;
   }
   const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
-  if (kKeepsPoints && points.size() == 1 && m.reusable)
-    keep_points(before, motion, normal_A, reach_m, m);
+  if (points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
   place_points(R_WA, R_WB, m);
   m.drift_W.setZero();
   m.sticking = true;

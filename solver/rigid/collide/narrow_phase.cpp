@@ -179,7 +179,7 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   const bool may_touch = axis.separation_m <= axis_reach.along(axis.normal_A);
   // The normal of balls depends on where they touch.
   const float casting_motion = b.kind == Kind::kSphere ? kBallCastingMotion : kCastingMotion;
-  const bool fast = kCastsPairs && may_touch && reach.displacement_m > casting_motion * m.size_m;
+  const bool fast = may_touch && reach.displacement_m > casting_motion * m.size_m;
   const std::optional<SeparatingAxis> passing =
       fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
   if (passing) {

@@ -85,7 +85,7 @@ class ContactSolver::Stages {
 
   /// Restitution comes before the sweeps, which remove all closing speed.
   void plan_restitution() {
-    if (!kAppliesRestitution || !solver_.order_.bouncy() || !solver_.moving_) return;
+    if (!solver_.order_.bouncy() || !solver_.moving_) return;
     for (int round = 0; round < kRestitutionRounds; ++round) {
       once(round == 0 ? &Stages::first_restitution : &Stages::begin_restitution);
       each_color(&Stages::apply_restitution);

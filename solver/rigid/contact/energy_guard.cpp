@@ -27,9 +27,8 @@ void EnergyGuard::collect(const StepContext& step, std::span<const ManifoldSlot>
                           std::span<const BodySlot> driven, const Bodies& bodies,
                           const Contacts& contacts) {
   const double slow_m_s = kGuardedSpeed * step.fall_m_s;
-  is_active_ = kGuardsEnergy && std::ranges::any_of(active, [&](BodySlot body) {
-                 return bodies.fastest_m_s(body) > slow_m_s;
-               });
+  is_active_ = std::ranges::any_of(
+      active, [&](BodySlot body) { return bodies.fastest_m_s(body) > slow_m_s; });
   if (!is_active_) return;
   DisjointSets groups(bodies.size());
   in_free_fall_.assign(bodies.size(), 1);
