@@ -80,8 +80,7 @@ constexpr Fault kFaults[] = {
      "bad.toml:4: friction in [ground] is true; allowed: a number "
      "from 0 to 10"},
     {"[[solid]]\nstructure = 3",
-     "bad.toml:4: structure in [[solid]] is the number 3; allowed: a "
-     "text"},
+     "bad.toml:4: structure in [[solid]] is the number 3; allowed: a non-empty string"},
     {"[solid]\nstructure = \"box\"",
      "bad.toml:3: [[solid]] is a table; expected an array of "
      "tables: write [[solid]] with two brackets"},
