@@ -73,9 +73,8 @@ Keys<Material> material_keys() {
                                    "whatever its stress limits."),
        key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", Range{0, kInfinity},
                                       "Fracture energy per area of crack."),
-       key<&Material::tensile_Pa>(
-           "tensile_Pa", "Pa", Range{0, kInfinity},
-           "Tensile strength of bonds under self-weight, loads and impacts; 0: unlimited."),
+       key<&Material::tensile_Pa>("tensile_Pa", "Pa", Range{0, kInfinity},
+                                  "Tensile strength of bonds; 0: unlimited."),
        key<&Material::shear_Pa>("shear_Pa", "Pa", Range{0, kInfinity},
                                 "Shear strength of bonds; 0: unlimited."),
        key<&Material::compressive_Pa>("compressive_Pa", "Pa", Range{0, kInfinity},
