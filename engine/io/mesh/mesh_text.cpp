@@ -113,7 +113,7 @@ double MeshText::to_number(std::string_view word) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
     value = std::strtod(std::string(digits).c_str(), nullptr);
-    if (!std::isfinite(value)) fail(quoted(word) + " is too large: export the mesh again");
+    if (!std::isfinite(value)) fail(quoted(word) + " is too large; export the mesh again");
     return value;  // as good as 0
   }
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
