@@ -61,9 +61,9 @@ std::string section(const GoldenResult& picture, std::size_t number) {
   html += figure("heat", "FLIP error", picture.difference.heat_map) + "</div>\n";
   if (!picture.runs.empty()) html += html_table({"simulated", "frames"}, picture.runs);
   if (!picture.passed) {
-    html += "<p>If this is right: <code>" + escaped(picture.accept_command) + "</code></p>\n";
+    html += "<p>To accept this picture: <code>" + escaped(picture.accept_command) + "</code></p>\n";
   }
-  return html + "<p>Remade by <code>" + escaped(picture.remake_command) + "</code><br>Drawn by " +
+  return html + "<p>Repeat by: <code>" + escaped(picture.remake_command) + "</code><br>Drawn by " +
          escaped(picture.renderer) + "</p>\n</section>\n";
 }
 
