@@ -99,7 +99,7 @@ TEST(EventProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
 }
 
 TEST(EventProbe, FindsTheWorkOfABlowPassedAlongARow) {
-  // Of twenty, more meet one after the other than are all looked at.
+  // A row of twenty has more impacts in sequence than the probe evaluates one by one.
   for (const auto& [n, gap_m] : {std::pair(6, 0.0), {6, 1e-3}, {20, 1e-3}}) {
     const double m = 3, v = 20;
     std::vector<ProbeBody> bodies = {pane()};
@@ -126,7 +126,7 @@ TEST(EventProbe, GoesOnToTheHardestOnceADozenHaveMet) {
     const auto self = static_cast<std::uint32_t>(bodies.size() - 1);
     if (i > 0) contacts.push_back(contact(self - 1, self, 1e-3));
   }
-  // Of what is left, the light ball would be there first.
+  // Without the broken body, the light ball would arrive first.
   const auto loads = EventProbe(bodies, contacts, kStep_s, kStill_m_s).next();
   ASSERT_FALSE(loads.empty());
   EXPECT_EQ(loads[0].body, 0u);

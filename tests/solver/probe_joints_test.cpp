@@ -26,7 +26,7 @@ ProbeBody joined_body(double mass_kg, const Vec3& inertia_kgm2, const Vec3& posi
   return body;
 }
 
-/// Of the world; bodies that break do so for anything.
+/// Returns an immovable body; a breakable one breaks at any energy.
 ProbeBody fixed_body(bool breakable) {
   ProbeBody body;
   body.breakable = breakable;

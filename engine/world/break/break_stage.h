@@ -50,7 +50,7 @@ class BreakBudget {
 /// A probe in progress, with its loads and planned breaks.
 struct Trial {
   std::unique_ptr<ImpactProbe> probe;
-  std::uint64_t fingerprint = 0;  ///< Of the probe's initial state; 0: not computed yet.
+  std::uint64_t fingerprint = 0;  ///< Hash of the probe's initial state; 0: not computed yet.
   bool loads_known = false;       ///< `loads` are those of the current event.
   std::uint64_t charged = 0;      ///< Work of the probe charged to the budget so far.
   std::vector<ImpactLoad> loads = {};
