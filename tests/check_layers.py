@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails if a source violates the order of modules and layers (docs/architecture.md, "Modules").
 
-Usage: check_rooms.py [ROOT]. Read first: the tables, then check_tree().
+Usage: check_layers.py [ROOT]. Read first: the tables, then check_tree().
 """
 import re
 import sys
@@ -114,7 +114,7 @@ def check_foreign_include(path, header):
             return f"<{header}> is allowed only in {', '.join(places)}"
     if SYSTEM.fullmatch(header):
         return None
-    return f"<{header}> is of no module: use the C++ header, or add it in check_rooms.py"
+    return f"<{header}> is of no module: use the C++ header, or add it in check_layers.py"
 
 
 def check_folders(paths):
@@ -123,7 +123,7 @@ def check_folders(paths):
     units = sorted({path.with_suffix("") for path in paths})
     for folder in sorted({unit.parent for unit in units}):
         if folder.parts[0] in LAYERS and str(folder) not in LAYER_OF:
-            found.append(f"{folder}/: in no layer of LAYERS in check_rooms.py")
+            found.append(f"{folder}/: in no layer of LAYERS in check_layers.py")
     first = {}
     for unit in units:
         module = owner(unit)

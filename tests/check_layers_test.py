@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Makes small source trees with one violation each; check_rooms.py has to find exactly that one."""
+"""Makes small source trees with one violation each; check_layers.py has to find exactly that one."""
 import tempfile
 import unittest
 from pathlib import Path
 
-import check_rooms
+import check_layers
 
 HEADER = "// A description.\n#pragma once\n"
 
@@ -97,13 +97,13 @@ BAD = {
 
 
 def messages_of(files):
-    """Returns the messages of check_rooms about a source tree of these files."""
+    """Returns the messages of check_layers about a source tree of these files."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             path = Path(folder) / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
-        return check_rooms.check_tree(folder)
+        return check_layers.check_tree(folder)
 
 
 class CheckLayers(unittest.TestCase):

@@ -116,7 +116,8 @@ class ScriptedPhysics : public Physics {
   std::vector<JointImpulse> joint_impulses() const override { return pulls; }
   std::vector<float> penetrations() const override { return {}; }
 
-  /// An approach of the living bodies with these tags at a point, along a normal from a to b.
+  /// Returns a speculative contact of the living bodies with these tags at a point, along a normal
+  /// from a to b.
   std::vector<SpeculativeContact> approach(std::uint32_t tag_a, std::uint32_t tag_b,
                                            const Vec3& point_W, const Vec3& normal_W) const {
     const Body *a = find(tag_a), *b = find(tag_b);

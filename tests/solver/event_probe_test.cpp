@@ -1,5 +1,5 @@
-// The break probe against what can be worked out by hand: hits that are passed on, shared, or come
-// one after the other.
+// Tests of the impact probe by hand calculation: impacts that are passed on, shared, or follow one
+// another.
 #include "solver/impact/event_probe.h"
 
 #include <cmath>
@@ -168,8 +168,8 @@ TEST(EventProbe, BreaksNoColumnThatTheOthersRelieve) {
   EventProbe probe(bodies, contacts, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 4u);
-  // One of four legs gives way: the slab still stands on a diagonal and one leg more, and goes
-  // nowhere. The energy is not there.
+  // One of four legs breaks: the slab still stands on a diagonal and one more leg and does not
+  // move, so that the energy is not available.
   const std::vector<ProbeBreak> one = {{0, 0.9 * loads[0].work_J}};
   EXPECT_TRUE(probe.release(one).empty());
 }

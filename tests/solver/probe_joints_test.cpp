@@ -1,5 +1,5 @@
-// The break probe with joints, against what can be worked out by hand: what strikes is all that
-// hangs together, as far as joints pass the blow on.
+// Tests of the impact probe with joints by hand calculation: the striking mass includes the jointed
+// bodies, as far as the joints transmit the impact.
 #include <cmath>
 #include <vector>
 

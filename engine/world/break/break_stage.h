@@ -1,11 +1,11 @@
 // Stage `break`: impacts break solids before the solve, so that a wall that breaks does not first
 // stop the ball. Internal to engine/world.
 //
-// Read first: BreakStage::run(), then resolve(). Break probes (break_probe.h) find the impact loads
-// on breakable solids. A solid breaks by its pattern if the work exceeds the toughness times the
-// crack's area, and the impulse the strength; and at the bonds that the impact overloads. Exactly
-// the energy of the cracks is taken from the motion; the pieces inherit the velocity field of the
-// solid.
+// Read first: BreakStage::run(), then resolve(). Impact probes (impact_probe.h) find the impact
+// loads on breakable solids. A solid breaks by its pattern if the work exceeds the toughness times
+// the crack's area, and the impulse the strength; and at the bonds that the impact overloads.
+// Exactly the energy of the cracks is taken from the motion; the pieces inherit the velocity field
+// of the solid.
 #pragma once
 
 #include <algorithm>
