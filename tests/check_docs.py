@@ -147,7 +147,7 @@ class Program:
         environment = os.environ | {"SUNDER_CACHE": str(self.folder / "cache"),
                                     "OMP_WAIT_POLICY": "passive"}
         return subprocess.run([self.program, *arguments], cwd=self.folder, env=environment, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300,
                               check=False)
 
     def options(self, command):
