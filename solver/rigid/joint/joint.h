@@ -42,7 +42,7 @@ struct Joint {
   bool lost = false;                  ///< The body of an end was removed: the joint has no effect.
   std::array<double, kMostJointRows> impulse = {};  ///< By row, of the last substep.
   AnchorImpulse total = {};  ///< Over the last step in which the joint was solved.
-  PlasticFlow flow = {};    ///< Plastic flow in the last solve.
+  PlasticFlow flow = {};     ///< Plastic flow in the last solve.
   PlasticState plastic = {};
 
   bool holds() const { return present && !lost; }
