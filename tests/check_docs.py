@@ -137,11 +137,14 @@ def options_in(text):
 
 
 class Program:
-    """The program under test, run in a folder of its own."""
+    """A copy of the program under test, run in a folder of its own. Where it was built, the program
+    would use the goldens of the source tree, and `golden accept` and `bench --accept` change them."""
 
     def __init__(self, program, folder):
-        self.program = Path(program).resolve()
+        self.program = folder / "build/sunder"
         self.folder = folder
+        self.program.parent.mkdir()
+        shutil.copy(program, self.program)
 
     def run(self, arguments):
         environment = os.environ | {"SUNDER_CACHE": str(self.folder / "cache"),
@@ -265,10 +268,8 @@ def shorten(arguments):
 
 def make_folder(root, folder, program):
     """Makes the files that commands of the pages name."""
-    (folder / "build").mkdir()
     (folder / "old/build").mkdir(parents=True)
-    for name in ("build/sunder", "old/build/sunder"):
-        (folder / name).symlink_to(program.program)
+    (folder / "old/build/sunder").symlink_to(program.program)
     (folder / "scenes").symlink_to(root / "scenes")
     (folder / "bench").symlink_to(root / "bench")
     (folder / "tests/golden").mkdir(parents=True)
