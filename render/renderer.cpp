@@ -192,7 +192,7 @@ void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
     paints = frame.paints;
     activate_unit(gl, kPictureUnit);
     pictures->update(paints ? *paints : std::vector<Appearance>());
-    materials = nullptr;  // forces the upload of all rows: those of paints follow the materials'
+    materials = nullptr;  // forces the upload of all rows: those of appearances follow
   }
   if (frame.materials != materials) {
     materials = frame.materials;

@@ -193,7 +193,7 @@ using StressCachePtr = std::shared_ptr<const StressCache>;
 /// An impact load: impulses that act in no time.
 struct ImpulsiveLoad {
   std::span<const AppliedForce> impulses;  ///< In N s in place of N.
-  /// Work that the impulses would do on the structure (break_probe.h); infinite: no striker would
+  /// Work that the impulses would do on the structure (impact_probe.h); infinite: no striker would
   /// move on with the structure.
   double energy_J = 0;
   Vec3 center_R = Vec3::Zero();  ///< Point of impact.

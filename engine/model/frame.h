@@ -1,5 +1,5 @@
 // Frame: all that is drawn and reported at one instant, and the interfaces that pass frames on
-// (docs/architecture.md, "Rooms"). The section "A step" there describes how a frame is made.
+// (docs/architecture.md, "Modules"). The section "A step" there describes how a frame is made.
 #pragma once
 
 #include <cstdint>

@@ -404,7 +404,7 @@ class StressBreaks {
   std::uint64_t most_work_ = 0;
   std::vector<std::uint8_t> hinged_;  ///< Per convex: nonzero beside a hinge.
   std::vector<Bond> cut_, negligible_;
-  BreakEdit opening_;  ///< Of an overlap.
+  BreakEdit opening_;  ///< Edit that opens an overlap.
   std::vector<PlasticHinge> hinges_;
 };
 

@@ -21,12 +21,12 @@ class Pictures {
   /// Makes the texture and binds it to the active unit.
   explicit Pictures(const GlTable& gl);
 
-  /// Uploads the pictures of `paints` in place of the old ones; the unit must be active. Throws
+  /// Uploads the images of `paints` in place of the old ones; the unit must be active. Throws
   /// InputError for a picture that is neither PNG nor JPEG.
   void update(const std::vector<Appearance>& paints);
-  /// Returns the texels (RGBA, float) of `paints` for pieces.vert, two per paint. First: linear
-  /// colour, layer of its picture. Second: layer of its relief, layer of its gloss, roughness (-1
-  /// without gloss), metalness. Layers are counted from 1; 0 stands for none.
+  /// Returns the texels (RGBA, float) of `paints` for pieces.vert, two per appearance. First:
+  /// linear colour, layer of its picture. Second: layer of its relief, layer of its gloss,
+  /// roughness (-1 without gloss), metalness. Layers are counted from 1; 0 stands for none.
   std::vector<float> rows(const std::vector<Appearance>& paints) const;
 
  private:

@@ -26,7 +26,7 @@ struct GpuVertex {
   float normal[3];
   std::uint32_t piece;  ///< Slot * 2 + 1 if interior.
   float uv[2];
-  std::uint32_t paint;  ///< Number of the paint, from 1, or 0 for none.
+  std::uint32_t paint;  ///< Number of the appearance, from 1, or 0 for none.
 };
 
 using Key = std::array<std::int32_t, 3>;

@@ -11,7 +11,7 @@ layout(std140) uniform Frame {
   vec4 ray_forward;
   vec4 to_sun;           // w: metres per texel of the shadow map
   vec4 ground;           // linear colour; w: height above the eye
-  vec4 ground_offset;    // x, y: offset of the eye in the ground's texture, in metres; z: first texel of paints in materials
+  vec4 ground_offset;    // x, y: offset of the eye in the ground's texture, in metres; z: first texel of appearances in materials
   vec4 pixel;            // width, height, and their inverses
   vec4 lens;             // x: near plane, y: pixels per radian, z: exposure, w: weight of a sample
   vec4 sun_light;        // sunlight on a face towards the sun

@@ -6,7 +6,7 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in uint paint_number;  // from 1; 0 for none
 
 out vec2 picture_uv;
-flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none, -1: no paint
+flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none, -1: no appearance
 flat out vec4 detail;  // layers of relief and gloss from 1, 0: none; roughness, -1: no gloss; metalness
 #endif
 

@@ -116,7 +116,8 @@ class ScriptedPhysics : public Physics {
   std::vector<JointImpulse> joint_impulses() const override { return pulls; }
   std::vector<float> penetrations() const override { return {}; }
 
-  /// An approach of the living bodies with these tags at a point, along a normal from a to b.
+  /// Returns a speculative contact of the living bodies with these tags at a point, along a normal
+  /// from a to b.
   std::vector<SpeculativeContact> approach(std::uint32_t tag_a, std::uint32_t tag_b,
                                            const Vec3& point_W, const Vec3& normal_W) const {
     const Body *a = find(tag_a), *b = find(tag_b);
@@ -142,8 +143,8 @@ class ScriptedPhysics : public Physics {
   std::vector<Body> bodies;
   std::vector<JointDesc> joints;  ///< All there ever were.
   std::vector<bool> cut_joints;
-  std::vector<ContactImpulse> loads;  ///< What contact_impulses() answers,
-  std::vector<JointImpulse> pulls;    ///< and joint_impulses().
+  std::vector<ContactImpulse> loads;  ///< Result of contact_impulses().
+  std::vector<JointImpulse> pulls;    ///< Result of joint_impulses().
 
  private:
   static double inverse_mass(const Body& body, const Vec3& point_W, const Vec3& normal_W) {
@@ -156,7 +157,7 @@ class ScriptedPhysics : public Physics {
   Script script_;
   std::vector<SpeculativeContact> approaches_;
   int collides_ = 0;
-  mutable BodyTable table_;  ///< Of `bodies`, which tests change as they like.
+  mutable BodyTable table_;  ///< Table of `bodies`, which tests change directly.
 };
 
 /// Parts every compound into its convexes; reports `area_m2` of crack for each part.
@@ -197,7 +198,7 @@ class ScriptedBreaker final : public Breaker {
     return edit;
   }
 
-  /// What stress() answers.
+  /// Computes the result of stress().
   std::function<StressResult(const Structure&, const LoadCase&)> stressed;
 
  private:

@@ -1,5 +1,5 @@
 // Tests of bonds broken by impact loads: where the stress is, by the impulse and the inertia of the
-// struck solid. bench/truths/blows.cpp has the speeds of a ball that break at each preset.
+// struck solid. Row 36 of docs/truths.md has the speeds of a ball that break at each preset.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The exact solve of a break probe: what contacts do to each other, however unlike the masses.
+// Tests of the exact solve of an impact probe: impulses of contacts at any ratio of masses.
 #include "solver/impact/complementarity.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The break probe against what can be worked out by hand: hits that are passed on, shared, or come
-// one after the other.
+// Tests of the impact probe by hand calculation: impacts that are passed on, shared, or follow one
+// another.
 #include "solver/impact/event_probe.h"
 
 #include <cmath>
@@ -99,7 +99,7 @@ TEST(EventProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
 }
 
 TEST(EventProbe, FindsTheWorkOfABlowPassedAlongARow) {
-  // Of twenty, more meet one after the other than are all looked at.
+  // A row of twenty has more impacts in sequence than the probe evaluates one by one.
   for (const auto& [n, gap_m] : {std::pair(6, 0.0), {6, 1e-3}, {20, 1e-3}}) {
     const double m = 3, v = 20;
     std::vector<ProbeBody> bodies = {pane()};
@@ -126,7 +126,7 @@ TEST(EventProbe, GoesOnToTheHardestOnceADozenHaveMet) {
     const auto self = static_cast<std::uint32_t>(bodies.size() - 1);
     if (i > 0) contacts.push_back(contact(self - 1, self, 1e-3));
   }
-  // Of what is left, the light ball would be there first.
+  // Without the broken body, the light ball would arrive first.
   const auto loads = EventProbe(bodies, contacts, kStep_s, kStill_m_s).next();
   ASSERT_FALSE(loads.empty());
   EXPECT_EQ(loads[0].body, 0u);
@@ -168,8 +168,8 @@ TEST(EventProbe, BreaksNoColumnThatTheOthersRelieve) {
   EventProbe probe(bodies, contacts, kStep_s, kStill_m_s);
   const auto loads = probe.next();
   ASSERT_EQ(loads.size(), 4u);
-  // One of four legs gives way: the slab still stands on a diagonal and one leg more, and goes
-  // nowhere. The energy is not there.
+  // One of four legs breaks: the slab still stands on a diagonal and one more leg and does not
+  // move, so that the energy is not available.
   const std::vector<ProbeBreak> one = {{0, 0.9 * loads[0].work_J}};
   EXPECT_TRUE(probe.release(one).empty());
 }

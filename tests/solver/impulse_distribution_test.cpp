@@ -1,4 +1,4 @@
-// How what contact_forces at many points is shared between them.
+// Distribution of an impulse over many contact points.
 #include "solver/impact/impulse_distribution.h"
 
 #include <vector>

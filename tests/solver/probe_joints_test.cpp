@@ -1,5 +1,5 @@
-// The break probe with joints, against what can be worked out by hand: what strikes is all that
-// hangs together, as far as joints pass the blow on.
+// Tests of the impact probe with joints by hand calculation: the striking mass includes the jointed
+// bodies, as far as the joints transmit the impact.
 #include <cmath>
 #include <vector>
 
@@ -26,7 +26,7 @@ ProbeBody joined_body(double mass_kg, const Vec3& inertia_kgm2, const Vec3& posi
   return body;
 }
 
-/// Of the world; bodies that break do so for anything.
+/// Returns an immovable body; a breakable one breaks at any energy.
 ProbeBody fixed_body(bool breakable) {
   ProbeBody body;
   body.breakable = breakable;

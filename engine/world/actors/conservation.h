@@ -18,7 +18,7 @@ struct Conservation {
   double removed_mass_kg = 0;      ///< Mass removed by the script.
   double plastic_J = 0;            ///< Plastic work of the whole run.
   double kinetic_J = 0;            ///< Kinetic energy at the end of the last frame.
-  double momentum_error_Ns = 0, momentum_moved_Ns = 0;  ///< Of the current frame.
+  double momentum_error_Ns = 0, momentum_moved_Ns = 0;  ///< Sums of the current frame.
 
   /// Adds the report of a solve, in whose step gravity changes velocities by `fall_m_s`. Changes of
   /// momentum by neither gravity nor static bodies are errors.

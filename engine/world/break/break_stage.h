@@ -1,11 +1,11 @@
 // Stage `break`: impacts break solids before the solve, so that a wall that breaks does not first
 // stop the ball. Internal to engine/world.
 //
-// Read first: BreakStage::run(), then resolve(). Break probes (break_probe.h) find the impact loads
-// on breakable solids. A solid breaks by its pattern if the work exceeds the toughness times the
-// crack's area, and the impulse the strength; and at the bonds that the impact overloads. Exactly
-// the energy of the cracks is taken from the motion; the pieces inherit the velocity field of the
-// solid.
+// Read first: BreakStage::run(), then resolve(). Impact probes (impact_probe.h) find the impact
+// loads on breakable solids. A solid breaks by its pattern if the work exceeds the toughness times
+// the crack's area, and the impulse the strength; and at the bonds that the impact overloads.
+// Exactly the energy of the cracks is taken from the motion; the pieces inherit the velocity field
+// of the solid.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ class BreakBudget {
 /// A probe in progress, with its loads and planned breaks.
 struct Trial {
   std::unique_ptr<ImpactProbe> probe;
-  std::uint64_t fingerprint = 0;  ///< Of the probe's initial state; 0: not computed yet.
+  std::uint64_t fingerprint = 0;  ///< Hash of the probe's initial state; 0: not computed yet.
   bool loads_known = false;       ///< `loads` are those of the current event.
   std::uint64_t charged = 0;      ///< Work of the probe charged to the budget so far.
   std::vector<ImpactLoad> loads = {};

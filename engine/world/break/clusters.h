@@ -1,4 +1,4 @@
-// Clusters of bodies for break probes: those connected by contacts or joints to a speculative
+// Clusters of bodies for impact probes: those connected by contacts or joints to a speculative
 // contact that could break something. Internal to engine/world.
 #pragma once
 

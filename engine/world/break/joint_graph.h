@@ -1,5 +1,5 @@
-// Actors connected by joints, and bounds on the energy of their impacts, for break probes. Internal
-// to engine/world.
+// Actors connected by joints, and bounds on the energy of their impacts, for impact probes.
+// Internal to engine/world.
 #pragma once
 
 #include <cstdint>

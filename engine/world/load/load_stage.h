@@ -18,8 +18,8 @@ class LoadStage {
  public:
   explicit LoadStage(const Limits& limits) : work_a_frame_(limits.load_work_a_frame) {}
 
-  /// Lets the breaker make its stress systems of large solids before the first frame, as that takes
-  /// longer than a frame has.
+  /// Makes the stress systems of large solids before the first frame, as that takes longer than a
+  /// frame has.
   void prepare(World& world, const Breaker& breaker) const;
   void begin_frame();
   /// Runs the stage after the solve.
