@@ -110,13 +110,15 @@ class StateRecorder final : public FrameSink {
  public:
   void take(const FramePtr& frame) override {
     states_.take(frame);
+    limits_ += frame->report.limits;
     limits_hit_ += frame->report.limits_hit;
   }
   std::string hash() const { return states_.hex(); }
-  std::string warning() const { return limits_warning(limits_hit_); }
+  std::string warning() const { return limits_warning(limits_, limits_hit_); }
 
  private:
   StateHash states_;
+  LimitsHit limits_;
   std::uint32_t limits_hit_ = 0;
 };
 
