@@ -257,6 +257,8 @@ int render_scene(const RenderOptions& options) {
   ahead.reset();
   if (const std::string warning = record.warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  for (const std::string& warning : renderer.warnings())
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (counter.taken() == 0) {
     options.print("stopped before anything was drawn; nothing is written\n");
   } else {
