@@ -79,9 +79,7 @@ struct ProbeCluster {
   double rest_speed_m_s = 0;
   /// Accelerates the bodies that no fixed or supported body supports.
   Vec3 gravity_W = Vec3::Zero();
-  /// Number of events after which the probe ends. The first half is taken in order of time, the
-  /// second in order of energy (event_probe.h).
-  std::uint32_t max_events = 24;
+  std::uint32_t max_events = 24;  ///< Number of events after which the probe ends.
 };
 
 /// Impulse that one contact or joint applies to a body.

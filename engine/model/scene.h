@@ -126,8 +126,8 @@ struct SolverOptions {
   bool sleeping = true;
 };
 
-/// Limits of a run. FrameReport counts when one is reached: limits, carried_over, aged. A run has
-/// the same states with higher limits if none was reached.
+/// Limits of a run. FrameReport counts when one is reached: limits, carried_over, aged. A run that
+/// reaches no limit has the same states without them.
 struct Limits {
   std::uint32_t bodies = 20000;
   /// Number of bodies from which the smallest fragments at rest become debris; 0: `bodies`.

@@ -309,9 +309,10 @@ Schema make_schema() {
                                     "Moving bodies around an impact that it can reach within a "
                                     "step, the nearest first; three eighths of it if neither of "
                                     "the two that meet can break."),
-       key<&Limits::probe_events>("probe_events", "", Range{2, 10000},
-                                  "Impacts of a cluster in a step, in order of time for the first "
-                                  "half and of energy for the second; later ones break nothing."),
+       key<&Limits::probe_events>(
+           "probe_events", "", Range{2, 10000},
+           "Times at which contacts of a cluster close in a step, the first 12 in order and the "
+           "others by energy; what closes after them breaks nothing."),
        key<&Limits::break_rounds>("break_rounds", "", Range{1, 1000},
                                   "Rounds of breaks in a step: solids that break one behind the "
                                   "other.")}};

@@ -13,6 +13,10 @@
 namespace sunder::solver {
 namespace {
 
+// Events that are taken in order of time. Each later one is the contact with the most closing
+// energy in the rest of the step, with all that close before it: a ball behind debris is still
+// found.
+constexpr std::uint32_t kSingleEvents = 12;
 // Bound on closing speeds after other contacts were solved, relative to the event's highest.
 constexpr double kMaxSpeedUp = 2;
 // A contact with less than this share of least_J_ as closing energy starts no event.
@@ -110,9 +114,7 @@ void EventProbe::find_falling() {
   }
 }
 
-/// Returns the time until the next event; infinite if there is none. The first half of all events
-/// is taken in order of time. Each later one is the contact with the most closing energy in the
-/// rest of the step, with all that close before it: a ball behind debris is still found.
+/// Returns the time until the next event; infinite if there is none.
 double EventProbe::time_to_next_event_s() const {
   double wait = std::numeric_limits<double>::infinity(), hardest = 0;
   std::vector<BodyVelocity> acceleration(bodies_.size());
@@ -132,7 +134,7 @@ double EventProbe::time_to_next_event_s() const {
     if (closing <= 0) continue;
     if (touches(i)) {
       if (events_ == 1) return 0;
-    } else if (events_ <= max_events_ / 2) {
+    } else if (events_ <= kSingleEvents) {
       wait = std::min(wait, 2 * gap / closing);
     } else if (square > hardest * row.inverse_mass && time_s_ + 2 * gap / closing <= dt_s_) {
       hardest = square / row.inverse_mass;
