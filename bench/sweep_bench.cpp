@@ -196,7 +196,7 @@ void recolor() {
   auto insert = [&](PairSlot pair) {
     Manifold m;
     m.body_a = contacts.pairs[pair].body_a, m.body_b = contacts.pairs[pair].body_b, m.count = 4;
-    contacts.touch(pair, m, bodies);
+    contacts.add_manifold(pair, m, bodies);
   };
   const auto count = static_cast<std::uint32_t>(contacts.pairs.size());
   double all_ms = now_ms();
@@ -209,7 +209,7 @@ void recolor() {
     for (const PairSlot pair : contacts.pairs.slots())
       if (gone.size() < kGone && random.below(count / kGone) == 0) gone.push_back(pair);
     const double start = now_ms();
-    for (const PairSlot pair : gone) contacts.part(pair);
+    for (const PairSlot pair : gone) contacts.remove_manifold(pair);
     const double middle = now_ms();
     for (const PairSlot pair : gone) insert(pair);
     out_ms = std::min(out_ms, middle - start), in_ms = std::min(in_ms, now_ms() - middle);

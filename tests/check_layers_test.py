@@ -10,8 +10,8 @@ HEADER = "// A description.\n#pragma once\n"
 
 # A source tree without violations.
 GOOD = {
-    "engine/CMakeLists.txt": "sunder_room(engine SOURCES base/a.cpp io/file.cpp)",
-    "render/CMakeLists.txt": "sunder_room(render SOURCES ${CMAKE_CURRENT_BINARY_DIR}/made.cpp)",
+    "engine/CMakeLists.txt": "sunder_module(engine SOURCES base/a.cpp io/file.cpp)",
+    "render/CMakeLists.txt": "sunder_module(render SOURCES ${CMAKE_CURRENT_BINARY_DIR}/made.cpp)",
     "engine/base/a.h": HEADER + "#include <vector>\n#include <Eigen/Core>\n",
     "engine/base/a.cpp": '#include "engine/base/a.h"\n',
     "engine/base/parallel.h": HEADER + "#include <omp.h>\n#pragma omp parallel\n",

@@ -280,7 +280,7 @@ void write_command(Writer& out, const BreakCommand& command) {
   out.put(pattern.jitter);
   out.put(pattern.brick_m);
   out.put(std::quoted(pattern.file));
-  out.word("unbreakable");
+  out.word("spared");
   out.put(command.unbreakable.size());
   for (const MaterialIndex material : command.unbreakable) out.put(material.value);
   out.put(command.smallest_m3);
@@ -350,7 +350,7 @@ BreakCommand read_command(Reader& in, std::istream& stream) {
   pattern.jitter = in.number();
   pattern.brick_m = in.matrix<Vec3>();
   if (!(stream >> std::quoted(pattern.file))) in.fail("the pattern's file is missing");
-  in.expect("unbreakable");
+  in.expect("spared");
   for (std::uint64_t left = in.integer(kMost); left > 0; --left) {
     command.unbreakable.emplace_back(in.integer(kMost));
   }

@@ -204,7 +204,7 @@ std::string format_results(const std::vector<GoldenResult>& results) {
     figures[at + "/flip_mean"] = result.difference.flip_mean;
     figures[at + "/worst_window_pixels"] = std::int64_t{result.difference.worst_window_pixels};
     figures[at + "/renderer"] = result.renderer;
-    figures[at + "/remake_command"] = result.golden.command();
+    figures[at + "/remade_by"] = result.golden.command();
     for (std::size_t j = 0; j < result.verdicts.size(); ++j) {
       const bench::Verdict& verdict = result.verdicts[j];
       const std::string of = at + "/verdicts/" + std::to_string(j);

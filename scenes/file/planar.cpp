@@ -83,7 +83,7 @@ void check_planar(const Scene& scene, const std::string& where) {
   for (const Move& move : scene.moves) {
     for (const PathKey& key : move.path.keys) {
       checker.in_plane(key.shift_W, "a move's shift");
-      checker.require(key.turn_W.head<2>().norm() <= kPlaneTolerance,
+      checker.require(key.rotation_W.head<2>().norm() <= kPlaneTolerance,
                       "a move turns about another axis than z");
     }
   }

@@ -199,6 +199,8 @@ TEST(MeshReader, ErrorsNameTheFileAndTheLine) {
             std::string::npos);
   EXPECT_NE(message("", MeshFormat::kObj).find("no faces"), std::string::npos);
   EXPECT_NE(message("v nan 0 0\n", MeshFormat::kObj).find("is not a number"), std::string::npos);
+  EXPECT_NE(message("v 1e999 0 0\n", MeshFormat::kObj).find("'1e999' is too large"),
+            std::string::npos);
   EXPECT_NE(message("v 1e200 0 0\nf 1 1 1\n", MeshFormat::kObj).find("1e9 m"), std::string::npos);
   std::string ply = binary_ply(false);
   ply.replace(ply.find("end_header\n") + 15, 4, raw(std::numeric_limits<float>::quiet_NaN()));

@@ -124,7 +124,7 @@ TEST(Golden, TheReportedCommandsMakeTheSameGoldenAgain) {
   const Json results = Json::parse(outcome.out);
   fs::copy(first.path(), second.path());
   for (const Json& golden : results["goldens"]) {
-    const std::string commands = golden["remake_command"];
+    const std::string commands = golden["remade_by"];
     for (const char* extension : {".json", ".png", ".frame"}) {
       fs::remove(first / (golden["name"].get<std::string>() + extension));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "engine/io/bytes.h"
@@ -111,7 +112,9 @@ double MeshText::to_number(std::string_view word) const {
   const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
-    return value;  // out of range: from_chars() leaves `value` 0
+    value = std::strtod(std::string(digits).c_str(), nullptr);
+    if (!std::isfinite(value)) fail(quoted(word) + " is too large: export the mesh again");
+    return value;  // as good as 0
   }
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
     fail(word.empty() ? "a number is missing: export the mesh again"

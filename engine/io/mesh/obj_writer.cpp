@@ -1,6 +1,9 @@
 #include "engine/io/mesh/obj_writer.h"
 
+#include <unistd.h>
+
 #include <charconv>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -108,7 +111,9 @@ void check_replaceable(const fs::path& folder) {
 void write_obj_folder(const fs::path& folder, const Model& model) {
   const fs::path place = folder.has_filename() ? folder : folder.parent_path();
   check_replaceable(place);
-  const fs::path partial = place.string() + ".part";
+  const std::string process = std::to_string(::getpid());
+  const fs::path partial = place.string() + ".part" + process,
+                 old = place.string() + ".old" + process;
   std::error_code error;
   fs::remove_all(partial, error);
   try {
@@ -120,11 +125,16 @@ void write_obj_folder(const fs::path& folder, const Model& model) {
     fs::remove_all(partial, error);
     throw;
   }
-  fs::remove_all(place, error);
+  std::error_code no_old;
+  fs::rename(place, old, no_old);
   fs::rename(partial, place, error);
   if (error) {
+    std::error_code ignored;
+    if (!no_old) fs::rename(old, place, ignored);
+    fs::remove_all(partial, ignored);
     throw FileError(place.string() + ": cannot be written; check the folder and its permissions");
   }
+  fs::remove_all(old, error);
 }
 
 }  // namespace sunder
