@@ -73,12 +73,12 @@ class EventProbe final : public ImpactProbe {
   std::vector<ProbeJoint> joints_;
   double dt_s_;
   double rest_speed_m_s_;
+  std::uint32_t max_events_;
   std::vector<BodyVelocity> gravity_;  ///< Per body: acceleration by gravity that the joints allow.
   /// Smallest least_J of the breakable bodies.
   double least_J_ = std::numeric_limits<double>::infinity();
   double softness_ = 0;  ///< Contact softness: speed per impulse.
   double time_s_ = 0;
-  std::uint32_t max_events_;
   std::uint32_t events_ = 0;
   bool reached_limit_ = false;
   std::uint64_t work_ = 0;

@@ -65,12 +65,12 @@ Ball passing_by() { return ball_at(Vec3(0, 1000, 0), Vec3(0, 3000, 0)); }
 using Stressed = std::function<StressResult(const Structure&, const LoadCase&)>;
 
 /// Simulation with access to its physics.
-struct Run {
+struct LimitsRun {
   ScriptedPhysics* physics = nullptr;
   std::unique_ptr<Simulation> simulation;
   FramePtr first;  ///< Frame 0.
 
-  Run(Scene scene, ScriptedPhysics::Script script, Stressed stressed = nullptr) {
+  LimitsRun(Scene scene, ScriptedPhysics::Script script, Stressed stressed = nullptr) {
     auto owned = std::make_unique<ScriptedPhysics>(std::move(script));
     physics = owned.get();
     auto breaker = std::make_unique<ScriptedBreaker>(2.0);
@@ -110,7 +110,7 @@ Scene struck_box(double speed_m_s = 9) {
 const ScriptedPhysics::Script kStrike = always(1, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX());
 
 TEST(Limits, ARunThatReachesNoneCountsNone) {
-  Run run(struck_box(), kStrike);
+  LimitsRun run(struck_box(), kStrike);
   EXPECT_EQ(names(*run.first), Names());
   const FramePtr frame = run.simulation->next();
   EXPECT_EQ(frame->breaks.size(), 1u);
@@ -121,7 +121,7 @@ TEST(Limits, ARunThatReachesNoneCountsNone) {
 TEST(Limits, ABreakIntoTooManyBodiesIsCounted) {
   Scene scene = struck_box();
   scene.limits.bodies = 2;
-  Run run(scene, kStrike);
+  LimitsRun run(scene, kStrike);
   const FramePtr frame = run.simulation->next();
   EXPECT_TRUE(frame->breaks.empty());
   EXPECT_EQ(names(*frame), (Names{{"bodies", 1}}));
@@ -133,7 +133,7 @@ TEST(Limits, ASolidWithTooManyBondsForStressByImpactIsCountedOnceWhenItIsMade) {
     Scene scene = scene_of({{"bar", row_of_boxes(3), {}}}, {});
     scene.materials[0].tensile_Pa = 1e6;
     scene.limits.impact_bonds = bonds;
-    Run run(scene, none);
+    LimitsRun run(scene, none);
     EXPECT_EQ(names(*run.first), bonds == 2 ? Names() : (Names{{"impact_bonds", 1}}));
     EXPECT_EQ(names(*run.simulation->next()), Names());
   }
@@ -157,7 +157,7 @@ TEST(Limits, SmallPiecesAreCountedByNameButNeitherSummedNorWarnedOf) {
     Scene scene = scene_of({{"bar", row_of_boxes(4), {}}}, {});
     scene.materials[0].tensile_Pa = 1e6;
     scene.limits.loaded_convexes = least;
-    Run run(scene, none, halves);
+    LimitsRun run(scene, none, halves);
     run.physics->loads = {{0, 1, Vec3(0, -1000, 0), Vec3(1, 1, 0)}};
     const FramePtr frame = run.simulation->next();
     ASSERT_EQ(frame->bodies.size(), 2u);
@@ -172,8 +172,8 @@ TEST(Limits, AClusterOfTheLargestSizeIsCounted) {
                             {"behind", row_of_boxes(2, Vec3(2, 0, 0)), {}, Vec3(-0.01, 0, 0)}},
                            {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(9, 0, 0))});
     scene.limits.cluster_bodies = bodies;
-    Run run(scene, joined({always(2, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX()),
-                           always(0, 1, Vec3(2, 0.5, 0.5), Vec3::UnitX())}));
+    LimitsRun run(scene, joined({always(2, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX()),
+                                 always(0, 1, Vec3(2, 0.5, 0.5), Vec3::UnitX())}));
     EXPECT_EQ(names(*run.simulation->next()),
               bodies == 4 ? Names() : (Names{{"cluster_bodies", 1}}));
   }
@@ -186,8 +186,8 @@ TEST(Limits, AClusterWithMoreEventsThanAllowedIsCounted) {
                             {"second", row_of_boxes(2, Vec3(2.01, 0, 0)), {}}},
                            {ball_at(Vec3(-0.3, 0.5, 0.5), Vec3(1.5, 0, 0))});
     scene.limits.probe_events = events;
-    Run run(scene, joined({always(2, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX()),
-                           always(0, 1, Vec3(2, 0.5, 0.5), Vec3::UnitX(), 0.01)}));
+    LimitsRun run(scene, joined({always(2, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX()),
+                                 always(0, 1, Vec3(2, 0.5, 0.5), Vec3::UnitX(), 0.01)}));
     const FramePtr frame = run.simulation->next();
     EXPECT_EQ(frame->breaks.empty(), events == 1);
     EXPECT_EQ(names(*frame), events == 24 ? Names() : (Names{{"probe_events", 1}}));
@@ -200,7 +200,7 @@ TEST(Limits, AnImpactThatIsUndecidedAfterTheLastRoundIsCounted) {
         scene_of({{"front", row_of_boxes(2), {}}, {"back", row_of_boxes(2, Vec3(0, 0, -2)), {}}},
                  {ball_at(Vec3(0.5, 0.5, 1.3), Vec3(0, 0, -30)), passing_by()});
     scene.limits.break_rounds = rounds;
-    Run run(scene, [](const ScriptedPhysics& physics, int collides) {
+    LimitsRun run(scene, [](const ScriptedPhysics& physics, int collides) {
       return physics.approach(2, collides == 0 ? 0 : 1, Vec3(0.5, 0.5, collides == 0 ? 1 : -1),
                               -Vec3::UnitZ());
     });
@@ -217,8 +217,8 @@ TEST(Limits, SmallImpactsThatTheBudgetDoesNotCoverAreCounted) {
                {ball_at(Vec3(-0.25, 0.5, 0.5), Vec3(30, 0, 0)),
                 ball_at(Vec3(-0.25, 0.5, -1.5), Vec3(20, 0, 0)), passing_by()});
   scene.limits.parts_a_frame = static_cast<std::uint32_t>(scene.materials[0].pattern.cells);
-  Run run(scene, joined({always(2, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX()),
-                         always(3, 1, Vec3(0, 0.5, -1.5), Vec3::UnitX())}));
+  LimitsRun run(scene, joined({always(2, 0, Vec3(0, 0.5, 0.5), Vec3::UnitX()),
+                               always(3, 1, Vec3(0, 0.5, -1.5), Vec3::UnitX())}));
   const FramePtr frame = run.simulation->next();
   EXPECT_EQ(frame->breaks.size(), 1u);
   EXPECT_EQ(frame->report.carried_over, 0u);
@@ -231,7 +231,7 @@ TEST(Limits, AnImpactWhoseStressIsNotFoundIsCounted) {
     Scene scene = struck_box();
     scene.materials[0].pattern.kind = PatternSpec::Kind::kNone;
     scene.materials[0].tensile_Pa = 1e5;
-    Run run(scene, kStrike, [&](const Structure&, const LoadCase&) {
+    LimitsRun run(scene, kStrike, [&](const Structure&, const LoadCase&) {
       StressResult answer;
       answer.gave_up = gave_up;
       return answer;
@@ -245,7 +245,7 @@ TEST(Limits, ASteadyLoadWhoseStressDoesNotConvergeIsCounted) {
   Scene scene = scene_of({{"bar", row_of_boxes(2), {}}}, {});
   scene.materials[0].tensile_Pa = 1e6;
   scene.solids[0].compound.anchored[0] = true;
-  Run run(scene, none, [&](const Structure&, const LoadCase&) {
+  LimitsRun run(scene, none, [&](const Structure&, const LoadCase&) {
     StressResult answer;
     answer.settled = answer.gave_up = true;
     return answer;
