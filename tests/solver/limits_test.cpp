@@ -32,15 +32,14 @@ TEST(SolverLimits, StepsWithSkippedContactsOfDenseClustersAreCounted) {
 }
 
 TEST(SolverLimits, StepsInWhichAnImpactDoesNotReachAllBodiesAreCounted) {
-  for (const int side : {1, 10}) {  // posts between two plates
+  for (const double ratio : {1.0, 1000.0}) {  // a light box between two that may be heavier
     RigidWorld world(awake(Vec3::Zero()));
-    const Vec3 plate(side, 0.2, side), post(0.5, 1, 0.5);
-    world.add(W::moving(W::box(plate, Vec3(0, 0.6, 0)), Vec3(0, -100, 0)));
-    world.add(W::box(plate, Vec3(0, -0.6, 0)));
-    for (int i = 0; i < side * side; ++i)
-      world.add(W::box(post, Vec3(i % side - 0.5 * (side - 1), 0, i / side - 0.5 * (side - 1))));
+    for (int i = 0; i < 3; ++i) {
+      const BodyDesc box = W::box(Vec3(1, 1, 1), Vec3(i, 0, 0), i == 1 ? 1000 : 1000 * ratio);
+      world.add(i == 0 ? W::moving(box, Vec3(100, 0, 0)) : box);
+    }
     EXPECT_EQ(names(world.step(0.5 * kDt_s, 4)),
-              side == 1 ? Names() : (Names{{"impact_sweeps", 1}}));
+              ratio == 1 ? Names() : (Names{{"impact_sweeps", 1}}));
   }
 }
 
