@@ -14,6 +14,7 @@ set(public_headers
   engine/model/energy.h
   engine/model/frame.h
   engine/model/joint.h
+  engine/model/limits_hit.h
   engine/model/material.h
   engine/model/path.h
   engine/model/scene.h

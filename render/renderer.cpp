@@ -391,6 +391,7 @@ Image Renderer::draw(const Frame& frame, const Frame* before) {
 }
 
 std::string Renderer::description() const { return impl_->context->description(); }
+std::vector<std::string> Renderer::warnings() const { return impl_->pictures->warnings(); }
 const std::vector<Layer>& Renderer::layers() const { return impl_->drawn_layers; }
 const RenderOptions& Renderer::options() const { return impl_->options; }
 int Renderer::width() const { return impl_->options.width; }

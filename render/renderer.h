@@ -34,6 +34,8 @@ class Renderer {
   const RenderOptions& options() const;
   /// Returns the context, driver and version, for logs.
   std::string description() const;
+  /// Returns warnings about the last draw(): textures that are left out or scaled down.
+  std::vector<std::string> warnings() const;
   int width() const;
   int height() const;
   /// Returns the times of the passes in order; empty unless options.time_passes is set.

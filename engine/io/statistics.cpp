@@ -20,6 +20,8 @@ struct Statistics::Series {
   RunInfo info;
   std::vector<FrameReport> reports;  ///< Reports of frames 1, 2, …; without penetrations.
   FrameReport first, last;
+  LimitsHit limits;              ///< Of all frames, the first included.
+  std::uint32_t limits_hit = 0;  ///< Of all frames, the first included.
   std::vector<double> fracture_ms;
   /// For each element of `reports`, index of its first element of `fracture_ms`.
   std::vector<std::size_t> first_fracture;
@@ -147,6 +149,12 @@ Json energy_json(const EnergyFlows& energy, double residual_J) {
   return json;
 }
 
+Json limits_json(const LimitsHit& limits) {
+  Json json = Json::object();
+  limits.for_each([&](const LimitText& text, std::uint32_t count) { json[text.name] = count; });
+  return json;
+}
+
 /// Returns the fractures of one frame; times only if there are any.
 Json fractures_json(std::span<const double> ms) {
   Json json{{"events", ms.size()}};
@@ -218,6 +226,8 @@ void Statistics::take(const FramePtr& frame) {
     series.first_fracture.push_back(series.fracture_ms.size());
   }
   series.last = frame->report;
+  series.limits += frame->report.limits;
+  series.limits_hit += frame->report.limits_hit;
   for (const BreakEvent& event : frame->breaks) {
     series.fracture_ms.push_back(event.plan_ms);
     series.pieces += event.pieces;
@@ -225,14 +235,20 @@ void Statistics::take(const FramePtr& frame) {
 }
 
 std::string Statistics::limits_warning() const {
-  return sunder::limits_warning(series_->sum(&FrameReport::limits_hit));
+  return sunder::limits_warning(series_->limits, series_->limits_hit);
 }
 
-std::string limits_warning(std::uint32_t hits) {
+std::string limits_warning(const LimitsHit& limits, std::uint32_t hits) {
+  std::string list;
+  limits.for_each([&](const LimitText& text, std::uint32_t count) {
+    if (text.by_design) return;
+    list += std::string(list.empty() ? "" : "; ") + text.name + " " + std::to_string(count) +
+            (count == 1 ? " time (" : " times (") + text.counted + ": " + text.advice + ")";
+  });
+  if (!list.empty()) return "limits were reached: " + list;
   if (hits == 0) return "";
-  return "[limits] of the scene were reached " + std::to_string(hits) +
-         " times: solids did not break, or particles were not emitted; raise limits.bodies, "
-         "limits.debris or limits.dust";
+  return "limits were reached " + std::to_string(hits) + (hits == 1 ? " time" : " times") +
+         "; simulate the scene again to see which";
 }
 
 std::string Statistics::json(const std::string& state_hash, bool per_frame) const {
@@ -286,7 +302,8 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
   json["friction_excess"] =
       ratio(s.sum(&FrameReport::friction_excess_Ns), s.sum(&FrameReport::friction_allowed_Ns));
   json["mass_kg"] = {{"initial", s.first.mass_kg}, {"final", s.last.mass_kg}};
-  json["limits_hit"] = s.sum(&FrameReport::limits_hit);
+  json["limits_hit"] = s.limits_hit;
+  json["limits_hit_by_name"] = limits_json(s.limits);
   json["aged"] = s.sum(&FrameReport::aged);
   json["joints_lost"] = s.sum(&FrameReport::joints_lost);
   json["modelled"] = s.info.modelled;
@@ -327,9 +344,9 @@ std::string Statistics::table() const {
   const std::vector<double> depth = s.penetrations();
   text += printed("penetration p50 %.2f mm, p99 %.2f mm, max %.2f mm\n", 1e3 * quantile(depth, 0.5),
                   1e3 * quantile(depth, 0.99), 1e3 * quantile(depth, 1));
-  text += printed("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n",
-                  s.first.mass_kg, s.last.mass_kg, s.worst(&FrameReport::momentum_residual),
-                  s.sum(&FrameReport::limits_hit));
+  text +=
+      printed("mass %.6f kg -> %.6f kg, momentum residual %.1e, limits hit %u\n", s.first.mass_kg,
+              s.last.mass_kg, s.worst(&FrameReport::momentum_residual), s.limits_hit);
   return text;
 }
 

@@ -40,8 +40,10 @@ struct RunInfo {
 /// volume; `volume_m3` is their volume, `of_m3` that of all solids.
 std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, double of_m3);
 
-/// Returns a warning that limits of the scene were reached `hits` times; empty if 0.
-std::string limits_warning(std::uint32_t hits);
+/// Returns a warning that names the limits that were reached, their effects, and what to do; empty
+/// if there are none. `hits` is the sum of FrameReport::limits_hit: of a recording, which has no
+/// names, it is all that is known.
+std::string limits_warning(const LimitsHit& limits, std::uint32_t hits);
 
 /// Returns the processor's model name.
 std::string cpu_name();
@@ -56,7 +58,7 @@ class Statistics final : public FrameSink {
   ~Statistics() override;
   void take(const FramePtr& frame) override;
 
-  /// Returns a warning if a limit of the scene was reached; else an empty string.
+  /// Returns a warning if limits were reached; else an empty string.
   std::string limits_warning() const;
   /// Returns the `simulate` and `bench` object (README, "JSON") with a final newline. An empty
   /// `state_hash` is omitted; `per_frame` adds an array with an object per frame.

@@ -239,6 +239,9 @@ struct StressResult {
   /// True if the work ran out before the stress of the impact load was known. A call with `memory`
   /// continues the solve.
   bool undecided = false;
+  /// True if a solve did not converge and no call will continue it: the load breaks no bond beyond
+  /// those in `edit`, although its stress is unknown.
+  bool gave_up = false;
 };
 
 /// A section that has bent; one element per former bond, with its location in both structures.

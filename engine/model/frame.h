@@ -11,6 +11,7 @@
 
 #include "engine/base/types.h"
 #include "engine/model/energy.h"
+#include "engine/model/limits_hit.h"
 #include "engine/model/material.h"
 #include "engine/model/work.h"
 
@@ -195,9 +196,10 @@ struct FrameReport {
   std::uint32_t carried_over = 0;  ///< Impacts and loads deferred to a later step by the budget.
   /// Convexes that a break left whole because their parts did not sum to their volume.
   std::uint32_t failed = 0;
-  double failed_m3 = 0;  ///< Volume of the convexes counted in `failed`.
-  std::uint32_t limits_hit = 0;
-  std::uint32_t aged = 0;  ///< Fragments turned into debris to keep within limits.
+  double failed_m3 = 0;          ///< Volume of the convexes counted in `failed`.
+  LimitsHit limits;              ///< How often each limit was reached; not stored in recordings.
+  std::uint32_t limits_hit = 0;  ///< Sum of `limits`, without limits that act by design.
+  std::uint32_t aged = 0;        ///< Fragments turned into debris to keep within limits.
   std::uint32_t frozen = 0;
   std::uint32_t joints_lost = 0;  ///< Joints broken by load, or without a piece to attach to.
   std::vector<float> penetrations_m;

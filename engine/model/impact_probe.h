@@ -79,6 +79,7 @@ struct ProbeCluster {
   double rest_speed_m_s = 0;
   /// Accelerates the bodies that no fixed or supported body supports.
   Vec3 gravity_W = Vec3::Zero();
+  std::uint32_t max_events = 24;  ///< Number of events after which the probe ends.
 };
 
 /// Impulse that one contact or joint applies to a body.
@@ -144,6 +145,8 @@ class ImpactProbe {
   virtual void pause() = 0;
   /// Work so far, in contact evaluations.
   virtual std::uint64_t work() const = 0;
+  /// Returns true if next() has ended the probe at `max_events`, before the end of the step.
+  virtual bool reached_limit() const = 0;
   /// Motion per body after release() or pause(); only entries with `changed` set are valid.
   virtual const std::vector<ProbeMotion>& motions() const = 0;
   virtual const std::vector<ProbeBody>& bodies() const = 0;

@@ -33,6 +33,7 @@
 #include "engine/model/energy.h"
 #include "engine/model/impact_probe.h"
 #include "engine/model/joint.h"
+#include "engine/model/limits_hit.h"
 #include "engine/model/section.h"
 #include "engine/model/work.h"
 
@@ -182,6 +183,8 @@ struct SolveReport {
   /// Sum over all contacts of the largest friction by Coulomb's law.
   double friction_allowed_Ns = 0;
   double friction_excess_Ns = 0;  ///< Sum of friction beyond Coulomb's law.
+  /// Limits reached since the last solve, in collide() or solve(): each at most once.
+  LimitsHit limits;
 };
 
 /// A contact point that carries load, for debug views.

@@ -126,7 +126,8 @@ struct SolverOptions {
   bool sleeping = true;
 };
 
-/// Upper limits of a run. FrameReport counts when one is reached: limits_hit, carried_over, aged.
+/// Limits of a run. FrameReport counts when one is reached: limits, carried_over, aged. A run that
+/// reaches no limit has the same states without them.
 struct Limits {
   std::uint32_t bodies = 20000;
   /// Number of bodies from which the smallest fragments at rest become debris; 0: `bodies`.
@@ -138,6 +139,22 @@ struct Limits {
   std::uint32_t load_work_a_frame = 40000;
   std::uint32_t debris = 20000;  ///< Pieces of debris alive at once.
   std::uint32_t dust = 4000;     ///< Puffs of dust alive at once.
+  /// Bonds of a solid with a pattern above which impacts do not break it by stress: with more
+  /// bonds, no plan ends within its evaluations, as half of all plans take 13 or more for each
+  /// bond.
+  std::uint32_t impact_bonds = 40000;
+  /// Bond evaluations of a plan by stress, enough for 8,000 convexes (docs/decisions/012).
+  std::uint32_t impact_evaluations = 500000;
+  /// Least convexes of a brittle piece for which contact forces and impacts are evaluated by
+  /// stress. Small pieces are many, and impacts break them by their pattern.
+  std::uint32_t loaded_convexes = 16;
+  /// Moving bodies of the cluster around an impact, the nearest first; three eighths of it if
+  /// neither body of the impact can break, so that the impact can only be passed on.
+  std::uint32_t cluster_bodies = 32;
+  /// Events of a cluster in a step after which its impacts break nothing.
+  std::uint32_t probe_events = 24;
+  /// Rounds of breaks in a step: solids that break one behind the other.
+  std::uint32_t break_rounds = 8;
 };
 
 struct Scene {

@@ -121,6 +121,7 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   }
   report.penetrations_m = world.physics->penetrations();
   report.carried_over = carried_over;
+  report.limits_hit = report.limits.sum();
   conservation.end_frame(report, frame->index == 0);
   frame->breaks = std::exchange(conservation.breaks, {});
   return frame;

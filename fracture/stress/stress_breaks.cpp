@@ -180,7 +180,7 @@ class StressBreaks {
     const bool known =
         improve(loads_, load_.gravity_R, load_.spin_R, kTolerance, memory_->displacements,
                 memory_->last_direction, memory_->iterations, answer);
-    answer.settled = memory_->iterations >= kMostIterations;
+    answer.settled = answer.gave_up = memory_->iterations >= kMostIterations;
     return known;
   }
 
@@ -199,8 +199,10 @@ class StressBreaks {
     std::vector<Displacement>& deflection = memory_->deflection.displacements;
     int iterations = 0;
     if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kImpactTolerance, deflection,
-                 memory_->deflection.last_direction, iterations, answer))
+                 memory_->deflection.last_direction, iterations, answer)) {
+      answer.gave_up |= iterations >= kMostIterations;
       return false;
+    }
     const auto [work, mass] = memory_->system->response(impulses_, deflection);
     const double striker = work * work / (2 * impact_J_);
     if (!(work > 0) || !(impact_J_ > 0)) return false;
@@ -244,6 +246,7 @@ class StressBreaks {
     work = ran_out ? work + answer.work : 0;
     answer.undecided = ran_out && work < load_.impulsive_load.most_work;
     if (!answer.undecided) work = 0;
+    answer.gave_up = !answer.undecided && (answer.gave_up || ran_out);
   }
 
   std::span<const Displacement> displacements() const {

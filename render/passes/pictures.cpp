@@ -63,17 +63,25 @@ float Pictures::layer_of(const Layer& layer) const {
 
 void Pictures::update(const std::vector<Appearance>& paints) {
   layers_.clear();
+  left_out_.clear();
+  scaled_down_ = 0;
   std::vector<Image> images;
   int largest = 1;
   const auto add = [&](const Layer& layer) {
-    if (!layer.picture || layers_.size() == kMaxPictures || layer_of(layer) > 0) return;
+    if (!layer.picture || layer_of(layer) > 0) return;
+    if (layers_.size() == kMaxPictures) {
+      if (std::ranges::find(left_out_, layer) == left_out_.end()) left_out_.push_back(layer);
+      return;
+    }
     images.push_back(decode_picture(*layer.picture));
     if (layer.normal_scale) {
       const float scale = *layer.normal_scale;
       images.back() = make_normal_map(images.back(), scale, layer.v_from_bottom ? scale : -scale);
     }
     layers_.push_back(layer);
-    largest = std::max({largest, images.back().width, images.back().height});
+    const int longest = std::max(images.back().width, images.back().height);
+    if (longest > kMaxPictureSide) ++scaled_down_;
+    largest = std::max(largest, longest);
   };
   for (const Appearance& paint : paints) add(color_layer(paint));
   for (const Appearance& paint : paints) add(relief_layer(paint));
@@ -91,6 +99,21 @@ void Pictures::update(const std::vector<Appearance>& paints) {
   gl_.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
+}
+
+std::vector<std::string> Pictures::warnings() const {
+  std::vector<std::string> all;
+  const auto count = [](std::size_t n) {
+    return std::to_string(n) + (n == 1 ? " texture" : " textures");
+  };
+  if (!left_out_.empty())
+    all.push_back(count(left_out_.size()) + " of meshes beyond the first " +
+                  std::to_string(kMaxPictures) +
+                  " are not drawn: their faces have a plain colour; use fewer pictures");
+  if (scaled_down_ > 0)
+    all.push_back(count(scaled_down_) + " of meshes larger than " +
+                  std::to_string(kMaxPictureSide) + " pixels are scaled down to that size");
+  return all;
 }
 
 std::vector<float> Pictures::rows(const std::vector<Appearance>& paints) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -28,6 +29,8 @@ class Pictures {
   /// linear colour, layer of its picture. Second: layer of its relief, layer of its gloss,
   /// roughness (-1 without gloss), metalness. Layers are counted from 1; 0 stands for none.
   std::vector<float> rows(const std::vector<Appearance>& paints) const;
+  /// Returns warnings for pictures of the last update() that are left out or scaled down.
+  std::vector<std::string> warnings() const;
 
  private:
   /// A picture as it is used in a layer.
@@ -50,6 +53,8 @@ class Pictures {
   const GlTable& gl_;
   GLuint texture_ = 0;
   std::vector<Layer> layers_;
+  std::vector<Layer> left_out_;  ///< Beyond kMaxPictures; each once.
+  std::size_t scaled_down_ = 0;  ///< Number of layers whose picture is larger than the texture.
 };
 
 }  // namespace sunder::render

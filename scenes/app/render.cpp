@@ -110,13 +110,15 @@ class StateRecorder final : public FrameSink {
  public:
   void take(const FramePtr& frame) override {
     states_.take(frame);
+    limits_ += frame->report.limits;
     limits_hit_ += frame->report.limits_hit;
   }
   std::string hash() const { return states_.hex(); }
-  std::string warning() const { return limits_warning(limits_hit_); }
+  std::string warning() const { return limits_warning(limits_, limits_hit_); }
 
  private:
   StateHash states_;
+  LimitsHit limits_;
   std::uint32_t limits_hit_ = 0;
 };
 
@@ -253,6 +255,8 @@ int render_scene(const RenderOptions& options) {
   const int stopped = pump_until_stopped(seen, sinks);
   ahead.reset();
   if (const std::string warning = record.warning(); !warning.empty())
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  for (const std::string& warning : renderer.warnings())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (counter.taken() == 0) {
     options.print("stopped before the first image; nothing is written\n");

@@ -321,7 +321,28 @@ Schema make_schema() {
                                        "Bond evaluations per frame to find breaks by load; the "
                                        "rest is deferred to the next frame."),
        key<&Limits::debris>("debris", "", Range{0, 200000}, "Most debris particles at once."),
-       key<&Limits::dust>("dust", "", Range{0, 100000}, "Most dust particles at once.")}};
+       key<&Limits::dust>("dust", "", Range{0, 100000}, "Most dust particles at once."),
+       key<&Limits::impact_bonds>("impact_bonds", "", Range{0, 4e9},
+                                  "Bonds of a solid with a pattern above which impacts break it "
+                                  "where it is struck only, not by stress elsewhere."),
+       key<&Limits::impact_evaluations>("impact_evaluations", "", Range{1, 4e9},
+                                        "Bond evaluations to find the stress of an impact on a "
+                                        "solid; an impact that needs more breaks nothing by "
+                                        "stress."),
+       key<&Limits::loaded_convexes>("loaded_convexes", "", Range{2, 1000000},
+                                     "Convexes of a brittle piece below which contacts do not "
+                                     "break it by stress."),
+       key<&Limits::cluster_bodies>("cluster_bodies", "", Range{2, 10000},
+                                    "Moving bodies around an impact that it can reach within a "
+                                    "step, the nearest first; three eighths of it if neither of "
+                                    "the two that meet can break."),
+       key<&Limits::probe_events>(
+           "probe_events", "", Range{2, 10000},
+           "Times at which contacts of a cluster close in a step, the first 12 in order and the "
+           "others by energy; what closes after them breaks nothing."),
+       key<&Limits::break_rounds>("break_rounds", "", Range{1, 1000},
+                                  "Rounds of breaks in a step: solids that break one behind the "
+                                  "other.")}};
   s.ground = {
       "[ground]",
       {key<&Ground::height_m>("height_m", "m", kPlace, "Height of the plane."),

@@ -13,11 +13,10 @@
 namespace sunder::solver {
 namespace {
 
-constexpr int kMostEvents = 24;
 // Events that are taken in order of time. Each later one is the contact with the most closing
 // energy in the rest of the step, with all that close before it: a ball behind debris is still
 // found.
-constexpr int kSingleEvents = 12;
+constexpr std::uint32_t kSingleEvents = 12;
 // Bound on closing speeds after other contacts were solved, relative to the event's highest.
 constexpr double kMaxSpeedUp = 2;
 // A contact with less than this share of least_J_ as closing energy starts no event.
@@ -31,12 +30,13 @@ constexpr double kHangingShare = 1e-4;
 
 EventProbe::EventProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
                        double dt_s, double rest_speed_m_s, const Vec3& gravity_W,
-                       std::vector<ProbeJoint> joints)
+                       std::vector<ProbeJoint> joints, std::uint32_t max_events)
     : bodies_(std::move(bodies)),
       contacts_(std::move(contacts)),
       joints_(std::move(joints)),
       dt_s_(dt_s),
       rest_speed_m_s_(rest_speed_m_s),
+      max_events_(max_events),
       gravity_(bodies_.size()),
       velocities_(bodies_.size()),
       displacements_(bodies_.size()),
@@ -162,14 +162,17 @@ void EventProbe::advance_time(double time_s) {
   }
 }
 
-/// Advances to the time at which the next contact closes; returns false if none does in the step.
+/// Advances to the time at which the next contact closes; returns false if none does in the step,
+/// or if it would be one event too many.
 bool EventProbe::advance_to_event() {
-  if (++events_ > kMostEvents) return false;
-  work_ += contacts_.size();
+  const bool is_too_many = ++events_ > max_events_;
+  if (!is_too_many) work_ += contacts_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) speeds_m_s_[i] = rows_[i].speed(velocities_);
   find_falling();
   const double wait = time_to_next_event_s();
   if (time_s_ + wait > dt_s_) return false;
+  reached_limit_ = is_too_many;
+  if (is_too_many) return false;
   advance_time(wait);
   const std::vector<ProbePose> poses = poses_after(bodies_, displacements_);
   const Linkage linkage(make_joint_rows(bodies_, poses, joints_));

@@ -25,11 +25,13 @@ class EventProbe final : public ImpactProbe {
  public:
   EventProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts, double dt_s,
              double rest_speed_m_s, const Vec3& gravity_W = Vec3::Zero(),
-             std::vector<ProbeJoint> joints = {});
+             std::vector<ProbeJoint> joints = {},
+             std::uint32_t max_events = ProbeCluster().max_events);
 
   explicit EventProbe(ProbeCluster cluster)
       : EventProbe(std::move(cluster.bodies), std::move(cluster.contacts), cluster.dt_s,
-                   cluster.rest_speed_m_s, cluster.gravity_W, std::move(cluster.joints)) {}
+                   cluster.rest_speed_m_s, cluster.gravity_W, std::move(cluster.joints),
+                   cluster.max_events) {}
 
   std::vector<ImpactLoad> next(double least_J = 0) override;
   void hold() override;
@@ -37,6 +39,7 @@ class EventProbe final : public ImpactProbe {
   void pause() override;
 
   std::uint64_t work() const override { return work_; }
+  bool reached_limit() const override { return reached_limit_; }
   const std::vector<ProbeMotion>& motions() const override { return motions_; }
   const std::vector<ProbeBody>& bodies() const override { return bodies_; }
   const std::vector<ProbeContact>& contacts() const override { return contacts_; }
@@ -70,12 +73,14 @@ class EventProbe final : public ImpactProbe {
   std::vector<ProbeJoint> joints_;
   double dt_s_;
   double rest_speed_m_s_;
+  std::uint32_t max_events_;
   std::vector<BodyVelocity> gravity_;  ///< Per body: acceleration by gravity that the joints allow.
   /// Smallest least_J of the breakable bodies.
   double least_J_ = std::numeric_limits<double>::infinity();
   double softness_ = 0;  ///< Contact softness: speed per impulse.
   double time_s_ = 0;
-  int events_ = 0;
+  std::uint32_t events_ = 0;
+  bool reached_limit_ = false;
   std::uint64_t work_ = 0;
   std::vector<BodyVelocity> velocities_;     ///< Per body, at time_s_.
   std::vector<BodyVelocity> displacements_;  ///< Per body, since the start of the step.

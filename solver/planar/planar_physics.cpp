@@ -62,7 +62,7 @@ class PlanarPhysics final : public Physics {
   double kinetic_J() const;
   void step(float h_s, SolveReport& report);
   void freeze_not_finite(SolveReport& report);
-  int steps_for(double dt_s, int substeps) const;
+  int steps_for(double dt_s, int substeps, LimitsHit& limits) const;
   const std::vector<FixtureContact>& contacts();
   double inverse_mass(const PlanarBody& body, const Vec3& arm_W, const Vec3& normal_W) const;
   Vec3 velocity_at(const PlanarBody& body, const Vec3& point_W) const;
@@ -254,7 +254,7 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   report.momentum_before_Ns = momentum_Ns();
   freeze_not_finite(report);
   const double before_J = kinetic_J();
-  const int steps = steps_for(dt_s, substeps);
+  const int steps = steps_for(dt_s, substeps, report.limits);
   listener_.begin();
   for (int i = 0; i < steps; ++i) step(static_cast<float>(dt_s / steps), report);
   listener_.end(steps);
@@ -279,7 +279,7 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
 
 /// Returns the Box2D steps, at most kMaxBox2DSteps or `substeps`, in which no body moves farther
 /// than half the least width of a shape, so that none tunnels, nor Box2D's own limit.
-int PlanarPhysics::steps_for(double dt_s, int substeps) const {
+int PlanarPhysics::steps_for(double dt_s, int substeps, LimitsHit& limits) const {
   double fastest = 0;  // units/s
   for (const PlanarBody& body : bodies_.items) {
     if (!body.dynamic() && !body.kinematic()) continue;
@@ -287,7 +287,10 @@ int PlanarPhysics::steps_for(double dt_s, int substeps) const {
   }
   const float motion = std::clamp(0.5f * bodies_.min_width, kMinMotionPerStep, kMaxMotionPerStep);
   const double wanted = fastest * dt_s / static_cast<double>(motion);
-  return std::max(substeps, static_cast<int>(std::ceil(std::min<double>(wanted, kMaxBox2DSteps))));
+  const int steps =
+      std::max(substeps, static_cast<int>(std::ceil(std::min<double>(wanted, kMaxBox2DSteps))));
+  limits[Limit::kPlanarSteps] = wanted > steps;
+  return steps;
 }
 
 /// Runs one Box2D step and adds the impulse and work of gravity on bodies that are awake before or

@@ -113,6 +113,7 @@ class RigidPhysics final : public Physics {
   /// Length of the substep that the stored impulses are from; 0: no impulses stored.
   double last_h_s_ = 0;
   std::uint32_t frozen_ = 0;  ///< Number of bodies frozen since the last solve began.
+  bool skipped_ = false;      ///< Contacts of dense clusters were left out since the last solve.
   ByBody<StepReach> reach_;
   WorkLog work_;
 };
@@ -192,6 +193,7 @@ void RigidPhysics::find_near() {
   WorkSpan span(work_, Stage::kCollide, "boxes that moved");
   broad_phase_.update(step_, shapes_, bodies_, contacts_);
   span.count(broad_phase_.moved());
+  skipped_ |= broad_phase_.has_skipped();
 }
 
 void RigidPhysics::find_reaches() {
@@ -245,7 +247,7 @@ void RigidPhysics::update_contacts() {
       if (!near && !broad_phase_.is_near(pair)) changes[c].removed.push_back(i);
     }
   });
-  dense_clusters_.drop_contacts(changes, contacts_, bodies_);
+  skipped_ |= dense_clusters_.drop_contacts(changes, contacts_, bodies_);
   std::vector<ManifoldSlot> left;
   for (const ContactChanges& chunk : changes)
     for (const PairSlot i : chunk.separated) left.push_back(pairs[i].manifold);
@@ -379,6 +381,8 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.contacts = solved.manifolds;
   report.contact_points = solved.points;
   for (const BodySlot body : bodies_.slots()) report.awake += bodies_.awake(body);
+  report.limits = solved.limits;
+  report.limits[Limit::kDenseClusters] = std::exchange(skipped_, false);
   report.frozen = frozen_;
   frozen_ = 0;
   return report;

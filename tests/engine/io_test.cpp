@@ -216,10 +216,13 @@ TEST(Statistics, WarnsOfConvexesLeftWholeAndOfLimits) {
   auto frame = std::make_shared<Frame>();
   frame->report.volume_m3 = 2;
   statistics.take(frame);
-  EXPECT_TRUE(nlohmann::json::parse(statistics.json("", false))["warnings"].empty());
+  const auto before = nlohmann::json::parse(statistics.json("", false));
+  EXPECT_TRUE(before["warnings"].empty());
+  EXPECT_EQ(before["limits_hit_by_name"], nlohmann::json::object());
   frame->report.failed = 2;
   frame->report.failed_m3 = 0.5;
-  frame->report.limits_hit = 3;
+  frame->report.limits[Limit::kBodies] = frame->report.limits_hit = 3;
+  frame->report.limits[Limit::kLoadedConvexes] = 5;
   statistics.take(frame);
   statistics.take(frame);
   const auto json = nlohmann::json::parse(statistics.json("", false));
@@ -228,7 +231,17 @@ TEST(Statistics, WarnsOfConvexesLeftWholeAndOfLimits) {
   ASSERT_EQ(json["warnings"].size(), 2u);
   EXPECT_NE(json["warnings"][0].get<std::string>().find("4 convexes were not cut, 50 %"),
             std::string::npos);
-  EXPECT_NE(json["warnings"][1].get<std::string>().find("6 times"), std::string::npos);
+  const std::string limits = json["warnings"][1];
+  EXPECT_NE(limits.find("bodies 6 times"), std::string::npos) << limits;
+  EXPECT_NE(limits.find("raise limits.bodies"), std::string::npos) << limits;
+  EXPECT_EQ(limits.find("loaded_convexes"), std::string::npos) << "it acts by design";
+  EXPECT_EQ(json["limits_hit"], 6);
+  EXPECT_EQ(json["limits_hit_by_name"], (nlohmann::json{{"bodies", 6}, {"loaded_convexes", 10}}));
+}
+
+TEST(Statistics, WarnsOfLimitsOfARecordingWhichHasNoNames) {
+  EXPECT_EQ(limits_warning({}, 0), "");
+  EXPECT_NE(limits_warning({}, 2).find("2 times"), std::string::npos);
 }
 
 // The residual is the change of energy that the flows do not account for, summed over frames.
@@ -260,14 +273,33 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   statistics.take(frame);
   statistics.take(frame);
   const auto json = nlohmann::json::parse(statistics.json("0123456789abcdef", true));
-  for (const char* key :
-       {"scene",          "preset",          "threads",         "frames",
-        "dt_s",           "substeps",        "solver",          "state_hash",
-        "steps",          "stages",          "frame",           "counts",
-        "peak",           "fractures",       "penetration_m",   "energy_J",
-        "energy_flows_J", "energy_residual", "friction_excess", "momentum_residual",
-        "mass_kg",        "limits_hit",      "modelled",        "cpu",
-        "sunder_version", "per_frame"}) {
+  for (const char* key : {"scene",
+                          "preset",
+                          "threads",
+                          "frames",
+                          "dt_s",
+                          "substeps",
+                          "solver",
+                          "state_hash",
+                          "steps",
+                          "stages",
+                          "frame",
+                          "counts",
+                          "peak",
+                          "fractures",
+                          "penetration_m",
+                          "energy_J",
+                          "energy_flows_J",
+                          "energy_residual",
+                          "friction_excess",
+                          "momentum_residual",
+                          "mass_kg",
+                          "limits_hit",
+                          "modelled",
+                          "cpu",
+                          "limits_hit_by_name",
+                          "sunder_version",
+                          "per_frame"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["frames"], 1);

@@ -320,7 +320,9 @@ TEST(ParticleStage, AFrameShowsParticlesAndCountsThoseOverTheLimit) {
   EXPECT_EQ(frame->report.counts.debris, 1u);
   EXPECT_EQ(frame->report.limits_hit, 0u);
   run.particles->ignored = 5;
-  EXPECT_EQ(run.simulation->next()->report.limits_hit, 1u);
+  frame = run.simulation->next();
+  EXPECT_EQ(frame->report.limits_hit, 1u);
+  EXPECT_EQ(frame->report.limits[Limit::kDebris], 1u);
   EXPECT_EQ(run.simulation->next()->report.limits_hit, 0u);
 }
 

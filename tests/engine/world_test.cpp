@@ -288,6 +288,7 @@ TEST(BreakStage, CountsABreakThatTheBodyLimitForbids) {
   const FramePtr frame = run.simulation.next();
   EXPECT_TRUE(frame->breaks.empty());
   EXPECT_EQ(frame->report.limits_hit, 1u);
+  EXPECT_EQ(frame->report.limits[Limit::kBodies], 1u);
 }
 
 TEST(Simulation, GivesAFrameEverySixtiethOfASecondUntilTheEnd) {

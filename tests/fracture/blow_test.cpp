@@ -99,10 +99,14 @@ TEST(ImpactLoad, IsAbandonedAfterItsWorkLimit) {
   load.most_work = once.work / 20;
   load.impulsive_load = {std::span(&impulse, 1), 1, kTip, 0, once.work / 2};
   int answers = 0;
-  for (StressResult answer; (answer = break_by_stress(Structure(compound), load)).undecided;) {
+  StressResult answer;
+  while ((answer = break_by_stress(Structure(compound), load)).undecided) {
+    EXPECT_FALSE(answer.gave_up);
     load.memory = answer.memory;
     ASSERT_LT(++answers, 12);
   }
+  EXPECT_TRUE(answer.gave_up);
+  EXPECT_FALSE(once.gave_up);
 }
 
 TEST(ImpactLoad, OnASlabCrushesTheMostLoadedColumn) {

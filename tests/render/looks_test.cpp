@@ -91,6 +91,27 @@ Appearance four_colors(bool v_from_bottom) {
   return {Vec3f::Ones(), as_png(image), v_from_bottom};
 }
 
+TEST(Appearance, TexturesThatAreLeftOutOrScaledDownAreWarnedOf) {
+  Renderer renderer({.width = 32, .height = 18});
+  const auto warnings = [&](std::vector<Appearance> paints) {
+    Frame frame = wall_frame(Stuff::kBrick);
+    frame.paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
+    renderer.draw(frame);
+    return renderer.warnings();
+  };
+  std::vector<Appearance> paints;
+  for (int i = 0; i < 32; ++i)
+    paints.push_back({Vec3f::Ones(), stripes({Vec3f::Constant(static_cast<float>(i))}, true)});
+  EXPECT_TRUE(warnings(paints).empty());
+  paints.push_back({Vec3f::Ones(), stripes({Vec3f::Constant(99)}, true)});
+  paints.push_back(paints.back());  // the same picture again
+  ASSERT_EQ(warnings(paints).size(), 1u);
+  EXPECT_EQ(warnings(paints)[0].find("1 texture of meshes"), 0u) << warnings(paints)[0];
+  const Image wide{1025, 1, std::vector<std::uint8_t>(3 * 1025)};
+  ASSERT_EQ(warnings({{Vec3f::Ones(), as_png(wide)}}).size(), 1u);
+  EXPECT_NE(warnings({{Vec3f::Ones(), as_png(wide)}})[0].find("scaled down"), std::string::npos);
+}
+
 TEST(Appearance, TheColorOfTheFileReplacesTheMaterials) {
   Frame frame = wall_frame(Stuff::kBrick);
   apply_appearance(frame, {Vec3f(0.05f, 0.5f, 0.05f), nullptr, false});

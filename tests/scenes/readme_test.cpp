@@ -20,6 +20,15 @@ TEST(ScenesReadme, ListsEveryKeyWithUnitDefaultAndRange) {
          "  build/sunder list --keys";
 }
 
+TEST(JsonPage, ListsEveryLimit) {
+  const std::string page = read_text(SUNDER_ROOT "/docs/json.md");
+  std::string table;
+  for (const LimitText& text : kLimitTexts)
+    table += std::string("| `") + text.name + "` | " + text.counted + " | " + text.advice +
+             (text.by_design ? " (by design: not warned of)" : "") + " |\n";
+  EXPECT_NE(page.find(table), std::string::npos) << "the table of limits should be:\n" << table;
+}
+
 TEST(ScenesReadme, NamesEveryScene) {
   const std::string readme = read_text(SUNDER_ROOT "/scenes/README.md");
   for (const CatalogEntry& entry : catalog()) {

@@ -133,6 +133,17 @@ TEST(EventProbe, GoesOnToTheHardestOnceADozenHaveMet) {
   EXPECT_NEAR(loads[0].work_J, 0.5 * 100 * 25, 1);
 }
 
+TEST(EventProbe, TellsIfMoreMeetThanItsEvents) {
+  const std::vector<ProbeBody> bodies = {ball(1, Vec3(0, -20, 0)), ball(1, Vec3::Zero()),
+                                         ball(1, Vec3::Zero()), pane()};
+  const std::vector<ProbeContact> contacts = {contact(0, 1, 0.01), contact(1, 2, 0.01)};
+  for (const std::uint32_t events : {1u, 2u}) {
+    EventProbe probe(bodies, contacts, kStep_s, kStill_m_s, Vec3::Zero(), {}, events);
+    EXPECT_TRUE(probe.next().empty());
+    EXPECT_EQ(probe.reached_limit(), events == 1);
+  }
+}
+
 TEST(EventProbe, SharesAFlatLandingAmongTenColumns) {
   const double m = 500, v = 3;
   std::vector<ProbeBody> bodies(10, pane());

@@ -32,6 +32,7 @@ struct Conservation {
     report.friction_excess_Ns += solved.friction_excess_Ns;
     report.counts.contacts = solved.contacts;
     report.frozen += solved.frozen;
+    report.limits += solved.limits;
   }
   /// Adds plastic work of hinges, which the solve has counted as energy of joints.
   void add_plastic_work(double work_J) {

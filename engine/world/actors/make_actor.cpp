@@ -10,10 +10,6 @@
 namespace sunder {
 namespace {
 
-// Least convexes of a fragment for which contact forces are evaluated. Small fragments are many,
-// and the break stage handles their impacts: of small fragments only the spin is evaluated.
-constexpr std::size_t kMinLoadedConvexes = 16;
-
 /// Returns true if load may break an actor.
 bool breaks_by_load(const World& world, const Actor& actor) {
   if (actor.structure.size() < 2) return false;
@@ -22,12 +18,12 @@ bool breaks_by_load(const World& world, const Actor& actor) {
   });
 }
 
-/// Returns true if contact forces and impacts on an actor are evaluated by stress; always for
-/// yielding materials.
+/// Returns true if contact forces and impacts on an actor are evaluated by stress: of small pieces
+/// of brittle materials only the spin is.
 bool reports_contact_loads(const World& world, const Actor& actor) {
   if (!actor.stress.breakable) return false;
   const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
-  return !is_fragment || actor.structure.size() >= kMinLoadedConvexes ||
+  return !is_fragment || actor.structure.size() >= world.scene.limits.loaded_convexes ||
          std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
            return world.material(material).yields();
          });
@@ -50,6 +46,11 @@ double burst_omega2_s2_of(const World& world, const Actor& actor) {
   return min_stress_limit_Pa / (density_kg_m3 * reach_m * reach_m);
 }
 
+/// Returns true if impacts do not break a material by stress, as the actor has too many bonds.
+bool is_past_impact_bonds(const World& world, const Actor& actor, const Material& material) {
+  return material.breakable() && actor.structure.bond_count() > world.scene.limits.impact_bonds;
+}
+
 std::vector<MaterialIndex> materials_of(const Compound& compound) {
   std::vector<MaterialIndex> all;
   for (const ConvexPtr& convex : compound.convexes) {
@@ -61,9 +62,6 @@ std::vector<MaterialIndex> materials_of(const Compound& compound) {
 
 // Least area of a crack through a solid of volume V, relative to V^(2/3).
 constexpr double kMinCrackShare = 0.1;
-// Most bonds of a solid with a pattern for which impacts are planned by stress: with more, no plan
-// ends within its evaluations (planned_break.cpp), as half of all plans take 13 or more a bond.
-constexpr std::size_t kMaxImpactBonds = 40000;
 
 // Most convexes that are checked for a plate; a structure with more is assumed to have one.
 constexpr std::size_t kMaxThinChecks = 8;
@@ -108,12 +106,25 @@ void set_least(const World& world, Actor& actor) {
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     if (!material.breaks_by_load()) continue;
-    if (material.breakable() && actor.structure.bond_count() > kMaxImpactBonds) continue;
+    if (is_past_impact_bonds(world, actor, material)) continue;
     // A block with stress σ at its corner by tension and bending about both axes has the energy σ²V
     // / 14 E.
     const double limit_Pa = material.min_stress_limit_Pa();
     actor.stress.least_J =
         std::min(actor.stress.least_J, limit_Pa * limit_Pa / (14 * material.youngs_Pa) * convex_m3);
+  }
+}
+
+void count_limits(World& world, const Actor& actor) {
+  if (!actor.stress.breakable) return;
+  LimitsHit& limits = world.conservation.report.limits;
+  if (!reports_contact_loads(world, actor)) {
+    ++limits[Limit::kLoadedConvexes];
+  } else if (std::ranges::any_of(actor.materials, [&](MaterialIndex index) {
+               const Material& material = world.material(index);
+               return material.breaks_by_load() && is_past_impact_bonds(world, actor, material);
+             })) {
+    ++limits[Limit::kImpactBonds];
   }
 }
 
@@ -188,6 +199,7 @@ void add_compounds(World& world, std::span<const Solid> solids) {
   for (const Solid& solid : solids) {
     actors.push_back(make_actor(world, solid.compound));
     const Actor& actor = actors.back();
+    count_limits(world, actor);
     const Vec3 com_W = solid.X_WR * actor.weight.com_R;
     bodies.push_back(make_body_desc(
         world, actor, {solid.X_WR, {com_W, solid.velocity_W, solid.angular_velocity_W}}));

@@ -21,6 +21,9 @@ double reached_m3(const Material& material, double volume_m3);
 /// Sets the least energy, impulse and speed of an impact that can break an actor, by pattern or by
 /// stress.
 void set_least(const World& world, Actor& actor);
+/// Counts the limits that an actor with a body of its own is made with: too many bonds for stress
+/// by impacts, or too few convexes for stress by contacts.
+void count_limits(World& world, const Actor& actor);
 
 /// Sets the motion of an actor's body, or applies an external impulse. Returns the change of its
 /// kinetic energy, J.

@@ -126,6 +126,7 @@ struct Pieces {
     piece.name = parent.name;
     piece.rejoined = parent.rejoined;
     set_least(world, piece);  // recomputed, as it is a fragment
+    count_limits(world, piece);
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
     world.conservation.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(make_body_desc(world, piece, motion));

@@ -24,8 +24,6 @@ constexpr std::uint64_t kContactEvaluationsPerPart = 1000;
 // neither probed nor deferred.
 constexpr double kMinDeferredShare = 1e-3;
 constexpr std::size_t kProbesAtOnce = 16;  // between two checks of the budget
-// Most rounds of breaks in a step: solids that break one behind the other.
-constexpr int kRounds = 8;
 
 bool parts_at_bonds(const Material& material) {
   return material.breaks_by_load() && !material.yields();
@@ -187,7 +185,8 @@ PlannedBreak planned_by_blast(const Actor& actor, const ActorImpact& impact) {
 std::vector<Trial> find_trials(World& world, const DeferredImpacts& deferred, double min_energy_J) {
   WorkSpan span(world.conservation.work, Stage::kBreak, "clusters found");
   std::vector<Trial> trials;
-  for (std::unique_ptr<ImpactProbe>& probe : find_clusters(world, deferred, min_energy_J))
+  LimitsHit& limits = world.conservation.report.limits;
+  for (std::unique_ptr<ImpactProbe>& probe : find_clusters(world, deferred, min_energy_J, limits))
     trials.push_back({std::move(probe)});
   span.count(trials.size());
   return trials;
@@ -271,6 +270,7 @@ void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
     for (Trial* trial : batch) {
       const std::uint64_t work = trial->probe->work();
       evaluations += work - std::exchange(trial->charged, work);
+      if (trial->probe->reached_limit()) ++world.conservation.report.limits[Limit::kProbeEvents];
     }
     budget_.charge(evaluations / kContactEvaluationsPerPart);
     visits.count += evaluations;
@@ -387,6 +387,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
       } else if (trial.may_defer) {
         defer(world, trial);
       } else {
+        ++world.conservation.report.limits[rounds_left ? Limit::kPartsAFrame : Limit::kBreakRounds];
         trial.planned.clear();  // nothing breaks
         to_plan.push_back(std::move(trial));
       }
@@ -431,8 +432,9 @@ void BreakStage::run(World& world, const Breaker& breaker, std::span<const Actor
   if (break_by_blasts(world, breaker, impacts)) collide();
   deferred_impacts_.begin_step(world);
   unbroken_probes_.clear();
-  for (int round = 0; round <= kRounds; ++round) {
-    const bool rounds_left = round < kRounds;
+  const std::uint32_t most_rounds = world.scene.limits.break_rounds;
+  for (std::uint32_t round = 0; round <= most_rounds; ++round) {
+    const bool rounds_left = round < most_rounds;
     const bool affordable = rounds_left && !budget_.spent();
     if (affordable) deferred_impacts_.release_first();
     std::vector<Trial> trials = find_trials(world, deferred_impacts_, min_impact_energy_J(world));

@@ -39,7 +39,7 @@ class ProbeBuilder {
     for (const std::uint32_t joint : joints_of_cluster()) add_joint(world_.joints.live()[joint]);
     return world_.physics->probe({std::move(bodies_), std::move(contacts_),
                                   std::move(probe_joints_), horizon_s, rest_speed_m_s,
-                                  world_.scene.gravity_W});
+                                  world_.scene.gravity_W, world_.scene.limits.probe_events});
   }
 
  private:

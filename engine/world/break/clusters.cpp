@@ -14,9 +14,6 @@
 namespace sunder {
 namespace {
 
-// Most moving bodies in a cluster, the nearest to the seed first; fewer if neither body of the seed
-// can break, so that the impact can only be passed on.
-constexpr std::size_t kMostBodies = 32, kMostPassingOn = 12;
 // Bound on the growth of a contact's impulse and speed after other contacts were solved.
 constexpr double kMaxGain = 2;
 
@@ -39,15 +36,27 @@ bool may_break(const World& world, const Actor* actor, const Seed& seed) {
                    kMaxGain * seed.speed_m_s);
 }
 
-/// Returns the seeds with energy enough to break an actor, in the order of find_clusters().
+/// Returns the most moving bodies of a cluster, the nearest to the seed first; `direct`: a body of
+/// the seed may break, or else the impact can only be passed on.
+std::size_t most_bodies(const World& world, bool direct) {
+  const std::size_t most = world.scene.limits.cluster_bodies;
+  return direct ? most : std::max<std::size_t>(2, most * 3 / 8);
+}
+
+/// Returns the seeds with energy enough to break an actor, in the order of find_clusters(). Counts
+/// seeds that may break an actor of theirs, and have no more than `min_energy_J`.
 std::vector<Seed> find_seeds(const World& world, const DeferredImpacts& deferred,
-                             const JointGraph& joints, double min_energy_J) {
+                             const JointGraph& joints, double min_energy_J, LimitsHit& limits) {
   double least_of_all_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) {
     least_of_all_J = std::min(least_of_all_J, actor.least_of_all_J());
   }
   if (least_of_all_J == std::numeric_limits<double>::infinity()) return {};
-  min_energy_J = std::max(min_energy_J, least_of_all_J);
+  const auto is_passed_over = [&](const Seed& seed) {
+    return min_energy_J > least_of_all_J && seed.energy_J > least_of_all_J &&
+           (may_break(world, world.actors.find(seed.a), seed) ||
+            may_break(world, world.actors.find(seed.b), seed));
+  };
   std::vector<Seed> pairs;
   for (const SpeculativeContact& approach : world.physics->speculative_contacts()) {
     Seed& pair = pairs.emplace_back(Seed{approach.body_tag_a, approach.body_tag_b});
@@ -59,7 +68,10 @@ std::vector<Seed> find_seeds(const World& world, const DeferredImpacts& deferred
     Seed seed = pairs[i];
     for (end = i + 1; end < pairs.size() && pairs[end].a == seed.a && pairs[end].b == seed.b; ++end)
       seed.add(pairs[end].energy_J, pairs[end].speed_m_s);
-    if (seed.energy_J <= min_energy_J) continue;
+    if (seed.energy_J <= std::max(min_energy_J, least_of_all_J)) {
+      if (is_passed_over(seed)) ++limits[Limit::kPartsAFrame];
+      continue;
+    }
     seed.since_step = std::min(deferred.since_step(seed.a, world.clock.step),
                                deferred.since_step(seed.b, world.clock.step));
     seeds.push_back(seed);
@@ -130,7 +142,7 @@ class ClusterSearch {
       if (actor && !actor->is_static && members_.is_claimed(place)) return false;
       direct |= may_break(world_, actor, seed);
     }
-    most_ = direct ? kMostBodies : kMostPassingOn;
+    most_ = most_bodies(world_, direct);
     for (const std::uint32_t place : ends) add(place);
     return true;
   }
@@ -154,6 +166,9 @@ class ClusterSearch {
       }
     }
   }
+
+  /// Returns true if the cluster has as many moving bodies as it may have.
+  bool is_full() const { return moving_.size() >= most_; }
 
   Cluster cluster() {
     std::ranges::sort(places_);
@@ -185,16 +200,16 @@ class ClusterSearch {
   ClusterMembership& members_;
   std::vector<std::uint32_t> places_;  ///< All bodies of the cluster, static ones included.
   std::vector<std::uint32_t> moving_;  ///< Moving bodies of the cluster, nearest first.
-  std::size_t most_ = kMostBodies;
+  std::size_t most_ = 0;
 };
 
 }  // namespace
 
 std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
                                                         const DeferredImpacts& deferred,
-                                                        double min_energy_J) {
+                                                        double min_energy_J, LimitsHit& limits) {
   const JointGraph joints(world);
-  const std::vector<Seed> seeds = find_seeds(world, deferred, joints, min_energy_J);
+  const std::vector<Seed> seeds = find_seeds(world, deferred, joints, min_energy_J, limits);
   if (seeds.empty()) return {};
   std::vector<Cluster> clusters;
   ClusterMembership members(world);
@@ -203,7 +218,9 @@ std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
     ClusterSearch search(world, joints, members);
     if (!search.start(seed)) continue;
     search.grow();
-    if (search.could_break(seed)) clusters.push_back(search.cluster());
+    if (!search.could_break(seed)) continue;
+    if (search.is_full()) ++limits[Limit::kClusterBodies];
+    clusters.push_back(search.cluster());
   }
   std::vector<std::unique_ptr<ImpactProbe>> probes(clusters.size());
   for_chunks(probes.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {

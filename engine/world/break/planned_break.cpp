@@ -28,9 +28,6 @@ constexpr double kRetryImpulseShare = 0.3;
 // planned again only with more energy. Materials without a pattern can only break by stress, and
 // slender frames need more evaluations.
 constexpr std::uint64_t kMaxImpactEvaluations = 100, kMaxFrameEvaluations = 1200;
-// Most bond evaluations of a plan, enough for 8,000 convexes (docs/decisions/012); larger solids
-// cannot be decided within a frame.
-constexpr std::uint64_t kMaxEvaluations = 500000;
 // Least share of material around a section for a plug (confinement()).
 constexpr double kMinConfinement = 0.45;
 // Greatest thickness that a striker perforates, in widths of its section.
@@ -287,8 +284,9 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         const Convex& convex = *actor.structure.convex(planned.impact.convex);
         const bool has_pattern = world.material(convex.material).breakable();
         const std::uint64_t bonds = actor.structure.bond_count() + 1;
-        const std::uint64_t most_work = std::min(
-            kMaxEvaluations, (has_pattern ? kMaxImpactEvaluations : kMaxFrameEvaluations) * bonds);
+        const std::uint64_t most_work = std::min<std::uint64_t>(
+            world.scene.limits.impact_evaluations,
+            (has_pattern ? kMaxImpactEvaluations : kMaxFrameEvaluations) * bonds);
         load.impulsive_load = {planned.impulses, planned.transmitted_J,
                                planned.command.X_RP.position,
                                planned.by_pattern ? planned.command.radius_m : 0, most_work};
@@ -308,7 +306,8 @@ Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t 
 }
 
 void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) {
-  if (outcome == Outcome::kBodyLimit) ++world.conservation.report.limits_hit;
+  LimitsHit& limits = world.conservation.report.limits;
+  if (outcome == Outcome::kBodyLimit) ++limits[Limit::kBodies];
   if (outcome != Outcome::kHolds) return;
   Actor& actor = *world.actors.find(planned.impact.key);
   const double energy_J = planned.impact.energy_J;
@@ -317,7 +316,9 @@ void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) 
         std::max(actor.least_J,
                  planned.edit.changed ? kReplanEnergyShare * planned.needed_J : 1.4 * energy_J);
   if (!planned.by_stress) return;
+  if (planned.stressed.gave_up) ++limits[Limit::kImpactEvaluations];
   if (planned.stressed.undecided) {
+    ++limits[Limit::kPartsAFrame];
     actor.stress.memory = planned.stressed.memory;
     return;
   }

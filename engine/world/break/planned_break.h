@@ -81,8 +81,8 @@ enum class Outcome {
 };
 /// Returns the outcome of a planned break if other breaks of the step add `pieces_planned` pieces.
 Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t pieces_planned = 0);
-/// Counts a reached limit; after an impact that breaks nothing, raises the actor's limits so that
-/// similar impacts are not planned again.
+/// Counts limits that were reached; after an impact that breaks nothing, raises the actor's limits
+/// so that similar impacts are not planned again.
 void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome);
 
 /// Breaks the actor of a planned break whose energy has been taken from the motion.

@@ -237,13 +237,14 @@ void apply(World& world, StressTask& task) {
   actor.stress.memory = answer.memory;
   actor.stress.settled = answer.settled;
   actor.stress.since_step = world.clock.step;
+  if (answer.gave_up) ++world.conservation.report.limits[Limit::kLoadIterations];
   BreakEdit& edit = answer.edit;
   if (!edit.changed) {
     actor.structure.apply(edit);
     return;
   }
   if (!fits_body_limit(world, edit)) {
-    ++world.conservation.report.limits_hit;
+    ++world.conservation.report.limits[Limit::kBodies];
     actor.stress.settled = true;
     return;
   }

@@ -145,8 +145,11 @@ void ParticleStage::show(Frame& frame) {
   frame.report.counts.debris = static_cast<std::uint32_t>(frame.debris.size());
   frame.report.counts.dust = static_cast<std::uint32_t>(frame.dust.size());
   const ParticleReport report = particles_->report();
-  const std::uint64_t ignored = report.debris.ignored + report.dust.ignored;
-  if (ignored > std::exchange(ignored_, ignored)) ++frame.report.limits_hit;
+  LimitsHit& limits = frame.report.limits;
+  if (report.debris.ignored > std::exchange(ignored_debris_, report.debris.ignored))
+    ++limits[Limit::kDebris];
+  if (report.dust.ignored > std::exchange(ignored_dust_, report.dust.ignored))
+    ++limits[Limit::kDust];
 }
 
 }  // namespace sunder

@@ -33,7 +33,8 @@ class ParticleStage {
 
  private:
   std::unique_ptr<Particles> particles_;
-  std::uint64_t ignored_ = 0;  ///< Particles not emitted for lack of room, up to the last frame.
+  /// Particles not emitted because the limit was reached, up to the last frame.
+  std::uint64_t ignored_debris_ = 0, ignored_dust_ = 0;
 };
 
 }  // namespace sunder

@@ -2,6 +2,7 @@
 // Each shape has a fat box, and only a shape that leaves its fat box is tested for new neighbours.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +38,11 @@ class BroadPhase {
               Contacts& contacts);
   /// Number of shapes that the last update() tested for neighbours.
   std::size_t moved() const { return moved_list_.size(); }
+  /// Returns true if the last update() left out pairs of dense clusters.
+  bool has_skipped() const {
+    return std::ranges::any_of(moved_list_,
+                               [&](ShapeSlot shape) { return has_skipped_[shape] != 0; });
+  }
   /// True if the pair's shapes may touch within the step.
   bool may_touch(const Pair& pair) const;
   /// Returns false if the fat boxes no longer overlap; such a pair must be removed, as pairs_with()

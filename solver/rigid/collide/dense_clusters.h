@@ -30,8 +30,9 @@ class DenseClusters {
  public:
   /// Leaves out contacts between bodies that have more than kMaxDeepContacts deep ones, different
   /// contacts in each step, so that no body has many more than that. Bodies with fewer deep
-  /// contacts keep all of theirs. The choice does not depend on the number of threads.
-  void drop_contacts(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
+  /// contacts keep all of theirs. The choice does not depend on the number of threads. Returns true
+  /// if contacts were left out.
+  bool drop_contacts(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
 
  private:
   std::uint64_t times_ = 0;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "solver/base/lanes.h"
+
 namespace sunder::solver {
 namespace {
 

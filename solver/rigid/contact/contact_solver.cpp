@@ -391,9 +391,15 @@ ContactSolveReport ContactSolver::solve(const StepContext& step, Bodies& bodies,
                         joint_solver_.driven(), bodies, contacts);
   Stages(*this, step, bodies, contacts, joints).run();
   const Vec3 from_joints_Ns = joint_solver_.finish(bodies, joints);
-  return {blocks_->outside_impulse_Ns() + from_joints_Ns, blocks_->work(),
-          static_cast<std::uint32_t>(order_.manifolds().size()), order_.points(),
-          !joint_solver_.empty()};
+  LimitsHit limits;
+  limits[Limit::kImpactSweeps] = impact_pass_.was_cut_off();
+  limits[Limit::kJointBand] = joint_solver_.was_split();
+  return {blocks_->outside_impulse_Ns() + from_joints_Ns,
+          blocks_->work(),
+          static_cast<std::uint32_t>(order_.manifolds().size()),
+          order_.points(),
+          !joint_solver_.empty(),
+          limits};
 }
 
 void ContactSolver::make_blocks() {

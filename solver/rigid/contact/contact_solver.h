@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/model/limits_hit.h"
 #include "solver/base/stage_runner.h"
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/spins.h"
@@ -28,6 +29,7 @@ struct ContactSolveReport {
   std::uint32_t manifolds = 0;
   std::uint32_t points = 0;
   bool joints = false;  ///< True if joints took part.
+  LimitsHit limits;     ///< Limits that were reached, each at most once.
 };
 
 /// Options of the contact solver.

@@ -14,6 +14,7 @@ void ImpactPass::clear() {
   colors_.clear();
   bodies_.clear();
   manifolds_ = 0;
+  was_cut_off_ = false;
 }
 
 void ImpactPass::add(std::uint32_t first, std::uint32_t end, std::uint32_t manifold,
@@ -63,7 +64,9 @@ void ImpactPass::sweep(const ContactStep& step, ContactBlocks& blocks) {
   ContactStep over_relaxed = step;
   over_relaxed.soft.omega = kOverRelaxed;
   const int most = std::min(kMostSweeps, kMostWork / manifolds_);
-  for (int i = 1; i < most && once(over_relaxed); ++i) sweep.since = sweep.now;
+  bool closes = true;
+  for (int i = 1; i < most && (closes = once(over_relaxed)); ++i) sweep.since = sweep.now;
+  was_cut_off_ |= closes;
   sweep.since = std::min<std::uint8_t>(sweep.now, 1);  // all bodies that an impact reached
   once(step), once(step);  // friction uses the normal impulses of the previous sweep
 }

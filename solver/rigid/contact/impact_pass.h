@@ -31,6 +31,9 @@ class ImpactPass {
   /// Propagates impacts until no contact closes as fast as an impact. Changes BodyRow::base and
   /// `velocity` by the same amount.
   void run(const ContactStep& step, ContactBlocks& blocks);
+  /// Returns true if a run() since clear() ended at its most sweeps, while contacts still closed as
+  /// fast as an impact.
+  bool was_cut_off() const { return was_cut_off_; }
 
  private:
   struct Color {
@@ -56,6 +59,7 @@ class ImpactPass {
   std::vector<std::uint8_t> moved_;  ///< ImpactSweep::moved, with rows below 0 first.
   std::size_t kinematic_ = 0;        ///< Number of rows below 0.
   int manifolds_ = 0;
+  bool was_cut_off_ = false;
 };
 
 }  // namespace sunder::solver

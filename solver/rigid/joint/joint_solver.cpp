@@ -38,6 +38,7 @@ void JointSolver::collect(const Bodies& bodies, const Joints& joints,
   joined_.clear();
   driven_.clear();
   is_first_.clear();
+  was_split_ = false;
   for (std::uint32_t i = 0; i < joints.size(); ++i) {
     if (!joints[i].holds()) continue;
     BodySlot first, last;
@@ -119,6 +120,7 @@ void JointSolver::group_joints(const Bodies& bodies, const Joints& joints) {
     });
     const std::uint32_t more = n * width + n * (n + 1) / 2;
     if (is_first_[at] || rows + n > kMostRows || entries + more > kMostEntries) {
+      was_split_ |= !is_first_[at];
       base += rows;
       rows = entries = 0;
       groups_.emplace_back();

@@ -21,6 +21,8 @@ class JointSolver {
   /// Groups the joints of awake bodies, and marks these bodies in `in_contact`.
   void collect(const Bodies& bodies, const Joints& joints, SpanByBody<std::uint8_t> in_contact);
   bool empty() const { return groups_.empty(); }
+  /// Returns true if connected joints were too many for one group.
+  bool was_split() const { return was_split_; }
   /// Groups by colour: colours run one after another, the groups of one in parallel.
   const std::vector<StageItems>& colors() const { return colors_; }
   /// Work on group i; `rows` and `step_bodies` are those of the step.
@@ -75,6 +77,7 @@ class JointSolver {
   std::vector<std::uint32_t> active_;   ///< Indices of joints; connected ones are consecutive.
   std::vector<std::uint8_t> is_first_;  ///< 1: first of connected joints; parallel to `active_`.
   std::vector<JointGroup> groups_;      ///< By colour.
+  bool was_split_ = false;
   std::vector<StageItems> colors_;
   ByBody<std::uint8_t> hangs_free_;
   std::vector<JointWork> works_;  ///< Parallel to `active_`.
