@@ -114,7 +114,7 @@ struct Renderer::Impl {
   Target sum;  ///< Sum of the samples.
   Target picture;
   std::shared_ptr<const std::vector<Material>> materials;
-  std::shared_ptr<const std::vector<Appearance>> paints;
+  std::shared_ptr<const std::vector<Appearance>> appearances;
   std::vector<std::uint32_t> pixels;
   std::vector<PassTime> times;
   Stopwatch watch;
@@ -188,17 +188,17 @@ void Renderer::Impl::end_pass(const char* pass) {
 void Renderer::Impl::upload(const Frame& frame, const Sample& sample) {
   activate_unit(gl, kSlotUnit);
   pieces.update(frame);
-  if (frame.paints != paints) {
-    paints = frame.paints;
+  if (frame.appearances != appearances) {
+    appearances = frame.appearances;
     activate_unit(gl, kPictureUnit);
-    pictures->update(paints ? *paints : std::vector<Appearance>());
+    pictures->update(appearances ? *appearances : std::vector<Appearance>());
     materials = nullptr;  // forces the upload of all rows: those of appearances follow
   }
   if (frame.materials != materials) {
     materials = frame.materials;
     std::vector<float> rows = material_rows(*materials);
-    if (paints) {
-      const std::vector<float> more = pictures->rows(*paints);
+    if (appearances) {
+      const std::vector<float> more = pictures->rows(*appearances);
       rows.insert(rows.end(), more.begin(), more.end());
     }
     fill_buffer(gl, GL_TEXTURE_BUFFER, material_buffer, rows, GL_STATIC_DRAW);

@@ -231,7 +231,7 @@ void Loader::add_solid(const Value& table) {
   const std::vector<Copy> copies = read_copies(table, keys.table);
   std::vector<Piece> pieces =
       read_structure(table, keys.table, head.structure, {keys.keys, placement_keys().keys},
-                     {scene_.materials, folder_, scene_.paints, scene_.warnings});
+                     {scene_.materials, folder_, scene_.appearances, scene_.warnings});
   std::size_t made = 0, parts = 0;
   for (const Piece& piece : pieces) {
     made += piece.copies.size();
@@ -258,7 +258,7 @@ void Loader::add_solid(const Value& table) {
 }
 
 void Loader::add_body(const Value& table) {
-  Body body = read_body(table, scene_.materials, folder_, scene_.paints, scene_.warnings);
+  Body body = read_body(table, scene_.materials, folder_, scene_.appearances, scene_.warnings);
   add_solids({body.name, body.default_name, table.where}, std::move(body.solids));
 }
 

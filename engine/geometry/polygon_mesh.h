@@ -31,7 +31,7 @@ struct PolygonMesh {
     std::uint32_t contour_count = 0;
     FaceKind kind = FaceKind::kSurface;
     /// User number of the face, kept by all cuts; 0 means none. In a mesh from a file 1 + index of
-    /// the group (RawMesh::groups), in a scene 1 + index of the appearance (Scene::paints).
+    /// the group (RawMesh::groups), in a scene 1 + index of the appearance (Scene::appearances).
     std::uint32_t mark = 0;
   };
 

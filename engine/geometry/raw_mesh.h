@@ -23,7 +23,8 @@ struct RawMesh {
   /// A group of polygons in a file: its names, narrowest first (group, object, material).
   struct Group {
     std::vector<std::string> names;
-    std::optional<Appearance> paint = std::nullopt;  ///< None if the file defines no appearance.
+    std::optional<Appearance> appearance =
+        std::nullopt;  ///< None if the file defines no appearance.
   };
   static constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
 

@@ -119,7 +119,7 @@ std::vector<std::byte> content_of(const Frame& frame) {
   }
   put_codes(out, frame.debris);
   put_codes(out, frame.dust);
-  put(out, frame.paints ? *frame.paints : std::vector<Appearance>());
+  put(out, frame.appearances ? *frame.appearances : std::vector<Appearance>());
   std::vector<std::shared_ptr<const Mesh>> meshes;
   for (const std::uint32_t mesh : drawn) meshes.push_back((*frame.meshes)[mesh]);
   put_uvs(out, meshes);
@@ -149,19 +149,19 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
     frame->debris = take_codes(in, file, materials.size(), decode_debris);
     frame->dust = take_codes(in, file, materials.size(), decode_dust);
   }
-  std::vector<Appearance> paints;
+  std::vector<Appearance> appearances;
   if (version >= 5) {
-    paints = take_paints(in, file);
+    appearances = take_appearances(in, file);
     take_uvs(in, file, meshes);
   }
-  for (const Mesh& mesh : meshes) check_appearances(mesh, file, paints.size());
+  for (const Mesh& mesh : meshes) check_appearances(mesh, file, appearances.size());
   if (version >= 5 && in.take<std::uint8_t>() != 0) {
     frame->inspection = take_inspection(in, file, *frame, version >= 6);
   }
   if (!in.at_end()) throw InputError(file + ": corrupt: unexpected bytes at the end");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
-  if (!paints.empty())
-    frame->paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
+  if (!appearances.empty())
+    frame->appearances = std::make_shared<const std::vector<Appearance>>(std::move(appearances));
   auto store = std::make_shared<MeshStore>();
   for (Mesh& mesh : meshes) store->push_back(std::make_shared<const Mesh>(std::move(mesh)));
   frame->meshes = std::move(store);

@@ -75,14 +75,14 @@ void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes) {
   }
 }
 
-void check_appearances(const Mesh& mesh, const std::string& file, std::size_t paints) {
+void check_appearances(const Mesh& mesh, const std::string& file, std::size_t appearances) {
   for (const Mesh::Vertex& vertex : mesh.vertices) {
-    if (vertex.look >= Mesh::kFirstPaint + paints)
+    if (vertex.look >= Mesh::kFirstAppearance + appearances)
       throw InputError(file + ": corrupt: a mesh has an invalid appearance");
   }
 }
 
-void put(ByteWriter& out, const std::vector<Appearance>& paints) {
+void put(ByteWriter& out, const std::vector<Appearance>& appearances) {
   std::vector<const std::vector<std::byte>*> pictures;  // each once
   const auto put_picture = [&](const EncodedImage& picture) {
     const auto known = std::find(pictures.begin(), pictures.end(), picture.get());
@@ -91,24 +91,25 @@ void put(ByteWriter& out, const std::vector<Appearance>& paints) {
     pictures.push_back(picture.get());
     out.put_list(*picture);
   };
-  out.put(static_cast<std::uint32_t>(paints.size()));
-  for (const Appearance& paint : paints) {
-    out.put(paint.color,
-            static_cast<std::uint8_t>((paint.v_from_bottom ? kVFromBottom : 0) |
-                                      (paint.relief ? kRelief : 0) | (paint.gloss ? kGloss : 0)));
-    put_picture(paint.picture);
-    if (paint.relief) {
-      put_picture(paint.relief);
-      out.put(paint.normal_scale);
+  out.put(static_cast<std::uint32_t>(appearances.size()));
+  for (const Appearance& appearance : appearances) {
+    out.put(appearance.color,
+            static_cast<std::uint8_t>((appearance.v_from_bottom ? kVFromBottom : 0) |
+                                      (appearance.relief ? kRelief : 0) |
+                                      (appearance.gloss ? kGloss : 0)));
+    put_picture(appearance.picture);
+    if (appearance.relief) {
+      put_picture(appearance.relief);
+      out.put(appearance.normal_scale);
     }
-    if (paint.gloss) {
-      out.put(paint.gloss->roughness, paint.gloss->metallic);
-      put_picture(paint.gloss->picture);
+    if (appearance.gloss) {
+      out.put(appearance.gloss->roughness, appearance.gloss->metallic);
+      put_picture(appearance.gloss->picture);
     }
   }
 }
 
-std::vector<Appearance> take_paints(ByteReader& in, const std::string& file) {
+std::vector<Appearance> take_appearances(ByteReader& in, const std::string& file) {
   std::vector<EncodedImage> pictures;
   const auto take_picture = [&]() -> EncodedImage {
     const auto number = in.take<std::uint32_t>();
@@ -120,23 +121,23 @@ std::vector<Appearance> take_paints(ByteReader& in, const std::string& file) {
     }
     return pictures[number];
   };
-  std::vector<Appearance> paints(in.take_count(17));
-  for (Appearance& paint : paints) {
-    in.take_to(paint.color);
+  std::vector<Appearance> appearances(in.take_count(17));
+  for (Appearance& appearance : appearances) {
+    in.take_to(appearance.color);
     const auto flags = in.take<std::uint8_t>();
-    paint.v_from_bottom = (flags & kVFromBottom) != 0;
-    paint.picture = take_picture();
+    appearance.v_from_bottom = (flags & kVFromBottom) != 0;
+    appearance.picture = take_picture();
     if ((flags & kRelief) != 0) {
-      paint.relief = take_picture();
-      in.take_to(paint.normal_scale);
+      appearance.relief = take_picture();
+      in.take_to(appearance.normal_scale);
     }
     if ((flags & kGloss) != 0) {
-      paint.gloss.emplace();
-      in.take_to(paint.gloss->roughness, paint.gloss->metallic);
-      paint.gloss->picture = take_picture();
+      appearance.gloss.emplace();
+      in.take_to(appearance.gloss->roughness, appearance.gloss->metallic);
+      appearance.gloss->picture = take_picture();
     }
   }
-  return paints;
+  return appearances;
 }
 
 void put(ByteWriter& out, const std::vector<Material>& materials) {

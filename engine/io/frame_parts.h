@@ -32,12 +32,12 @@ Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, b
 /// Appends the texture coordinates of those meshes that have them; older files have none.
 void put_uvs(ByteWriter& out, std::span<const std::shared_ptr<const Mesh>> meshes);
 void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes);
-/// Throws InputError if the mesh uses an appearance beyond `paints`.
-void check_appearances(const Mesh& mesh, const std::string& file, std::size_t paints);
+/// Throws InputError if the mesh uses an appearance beyond `appearances`.
+void check_appearances(const Mesh& mesh, const std::string& file, std::size_t appearances);
 
 /// Appends the appearance of mesh files' faces; each image is stored once.
-void put(ByteWriter& out, const std::vector<Appearance>& paints);
-std::vector<Appearance> take_paints(ByteReader& in, const std::string& file);
+void put(ByteWriter& out, const std::vector<Appearance>& appearances);
+std::vector<Appearance> take_appearances(ByteReader& in, const std::string& file);
 
 /// Least number of bytes that a stored mesh takes.
 inline constexpr std::size_t kMinMeshBytes = 36;

@@ -26,9 +26,9 @@ struct Mesh {
     Vec3f normal = Vec3f::UnitY();
     std::uint32_t look = kSurface;
   };
-  /// Appearance of a vertex: the material's surface or interior, or, from kFirstPaint on, an
-  /// element of Frame::paints.
-  static constexpr std::uint32_t kSurface = 0, kInterior = 1, kFirstPaint = 2;
+  /// Appearance of a vertex: the material's surface or interior, or, from kFirstAppearance on, an
+  /// element of Frame::appearances.
+  static constexpr std::uint32_t kSurface = 0, kInterior = 1, kFirstAppearance = 2;
   Pose X_RT;
   Vec3 origin_T = Vec3::Zero();
   std::vector<Vertex> vertices;
@@ -211,7 +211,7 @@ struct Frame {
   double time_s = 0;
   View view;
   std::shared_ptr<const std::vector<Material>> materials;
-  std::shared_ptr<const std::vector<Appearance>> paints;  ///< Null if there are none.
+  std::shared_ptr<const std::vector<Appearance>> appearances;  ///< Null if there are none.
   std::shared_ptr<const MeshStore> meshes;
   /// Names of the scene's solids, balls and shots; the same in all frames. Null if unknown.
   std::shared_ptr<const std::vector<std::string>> names;

@@ -122,8 +122,8 @@ void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, M
     const PolygonMesh::Face& face = visual.faces[f];
     if (!face.id.none() && is_hidden(convex, hidden, face.id)) continue;
     const std::uint32_t look = face.kind == FaceKind::kInterior ? Mesh::kInterior
-                               : face.mark > 0                  ? Mesh::kFirstPaint + face.mark - 1
-                                                                : Mesh::kSurface;
+                               : face.mark > 0 ? Mesh::kFirstAppearance + face.mark - 1
+                                               : Mesh::kSurface;
     for (const Triangle& triangle : triangulate(visual, f)) {
       for (const std::uint32_t corner : triangle) {
         const std::uint32_t vertex = visual.corners[corner];

@@ -173,7 +173,7 @@ struct Scene {
   std::vector<ViewKey> view_keys;  ///< Keys of the camera's path; empty: the camera is fixed.
   std::vector<Material> materials;
   /// Appearance of faces of meshes from files, by PolygonMesh::Face::mark.
-  std::vector<Appearance> paints;
+  std::vector<Appearance> appearances;
   std::vector<Solid> solids;
   std::vector<Ball> balls;
   std::vector<Joint> joints;

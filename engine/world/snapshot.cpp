@@ -105,7 +105,7 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   frame->view.ground_m = world.scene.ground.height_m;
   frame->materials = world.materials;
   frame->names = world.names;
-  frame->paints = world.paints;
+  frame->appearances = world.appearances;
   frame->meshes = world.meshes.publish();
   frame->report = std::exchange(conservation.report, {});
   FrameReport& report = frame->report;

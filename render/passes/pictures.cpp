@@ -61,7 +61,7 @@ float Pictures::layer_of(const Layer& layer) const {
   return shown ? static_cast<float>(found - layers_.begin() + 1) : 0.0f;
 }
 
-void Pictures::update(const std::vector<Appearance>& paints) {
+void Pictures::update(const std::vector<Appearance>& appearances) {
   layers_.clear();
   left_out_.clear();
   scaled_down_ = 0;
@@ -83,9 +83,9 @@ void Pictures::update(const std::vector<Appearance>& paints) {
     if (longest > kMaxPictureSide) ++scaled_down_;
     largest = std::max(largest, longest);
   };
-  for (const Appearance& paint : paints) add(color_layer(paint));
-  for (const Appearance& paint : paints) add(relief_layer(paint));
-  for (const Appearance& paint : paints) add(gloss_layer(paint));
+  for (const Appearance& appearance : appearances) add(color_layer(appearance));
+  for (const Appearance& appearance : appearances) add(relief_layer(appearance));
+  for (const Appearance& appearance : appearances) add(gloss_layer(appearance));
   const auto wanted = static_cast<int>(std::bit_ceil(static_cast<unsigned>(largest)));
   const int side = std::min(wanted, kMaxPictureSide);
   std::vector<std::uint8_t> texels(images.empty() ? 4 : 0);
@@ -116,14 +116,15 @@ std::vector<std::string> Pictures::warnings() const {
   return all;
 }
 
-std::vector<float> Pictures::rows(const std::vector<Appearance>& paints) const {
+std::vector<float> Pictures::rows(const std::vector<Appearance>& appearances) const {
   std::vector<float> texels;
-  for (const Appearance& paint : paints) {
+  for (const Appearance& appearance : appearances) {
     texels.insert(
         texels.end(),
-        {paint.color.x(), paint.color.y(), paint.color.z(), layer_of(color_layer(paint)),
-         layer_of(relief_layer(paint)), layer_of(gloss_layer(paint)),
-         paint.gloss ? paint.gloss->roughness : -1, paint.gloss ? paint.gloss->metallic : 0});
+        {appearance.color.x(), appearance.color.y(), appearance.color.z(),
+         layer_of(color_layer(appearance)), layer_of(relief_layer(appearance)),
+         layer_of(gloss_layer(appearance)), appearance.gloss ? appearance.gloss->roughness : -1,
+         appearance.gloss ? appearance.gloss->metallic : 0});
   }
   return texels;
 }

@@ -22,13 +22,13 @@ class Pictures {
   /// Makes the texture and binds it to the active unit.
   explicit Pictures(const GlTable& gl);
 
-  /// Uploads the images of `paints` in place of the old ones; the unit must be active. Throws
+  /// Uploads the images of `appearances` in place of the old ones; the unit must be active. Throws
   /// InputError for a picture that is neither PNG nor JPEG.
-  void update(const std::vector<Appearance>& paints);
-  /// Returns the texels (RGBA, float) of `paints` for pieces.vert, two per appearance. First:
+  void update(const std::vector<Appearance>& appearances);
+  /// Returns the texels (RGBA, float) of `appearances` for pieces.vert, two per appearance. First:
   /// linear colour, layer of its picture. Second: layer of its relief, layer of its gloss,
   /// roughness (-1 without gloss), metalness. Layers are counted from 1; 0 stands for none.
-  std::vector<float> rows(const std::vector<Appearance>& paints) const;
+  std::vector<float> rows(const std::vector<Appearance>& appearances) const;
   /// Returns warnings for pictures of the last update() that are left out or scaled down.
   std::vector<std::string> warnings() const;
 
@@ -40,12 +40,14 @@ class Pictures {
     std::optional<float> normal_scale = std::nullopt;  ///< Set if the layer is a normal map.
     bool operator==(const Layer&) const = default;
   };
-  static Layer color_layer(const Appearance& paint) { return {paint.picture, paint.v_from_bottom}; }
-  static Layer relief_layer(const Appearance& paint) {
-    return {paint.relief, paint.v_from_bottom, paint.normal_scale};
+  static Layer color_layer(const Appearance& appearance) {
+    return {appearance.picture, appearance.v_from_bottom};
   }
-  static Layer gloss_layer(const Appearance& paint) {
-    return {paint.gloss ? paint.gloss->picture : nullptr, paint.v_from_bottom};
+  static Layer relief_layer(const Appearance& appearance) {
+    return {appearance.relief, appearance.v_from_bottom, appearance.normal_scale};
+  }
+  static Layer gloss_layer(const Appearance& appearance) {
+    return {appearance.gloss ? appearance.gloss->picture : nullptr, appearance.v_from_bottom};
   }
   /// Returns the number of a layer, from 1, or 0 if it is not uploaded.
   float layer_of(const Layer& layer) const;

@@ -26,7 +26,7 @@ struct GpuVertex {
   float normal[3];
   std::uint32_t piece;  ///< Slot * 2 + 1 if interior.
   float uv[2];
-  std::uint32_t paint;  ///< Number of the appearance, from 1, or 0 for none.
+  std::uint32_t appearance;  ///< Number of the appearance, from 1, or 0 for none.
 };
 
 using Key = std::array<std::int32_t, 3>;
@@ -146,7 +146,7 @@ Pieces::Pieces(const GlTable& gl) : gl_(gl) {
   set_attributes(gl_, 3, sizeof(GpuVertex), {{2, offsetof(GpuVertex, uv)}});
   gl_.EnableVertexAttribArray(4);
   gl_.VertexAttribIPointer(4, 1, GL_UNSIGNED_INT, sizeof(GpuVertex),
-                           buffer_offset(offsetof(GpuVertex, paint)));
+                           buffer_offset(offsetof(GpuVertex, appearance)));
   gl_.BindBuffer(GL_TEXTURE_BUFFER, slot_buffer_);
   gl_.BindTexture(GL_TEXTURE_BUFFER, slot_texture_);
   gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, slot_buffer_);
@@ -221,13 +221,14 @@ bool Pieces::upload_new() {
       const auto piece = static_cast<std::uint32_t>(2 * s) + (v.look == Mesh::kInterior ? 1u : 0u);
       const Eigen::Vector2f uv =
           slot.mesh->uvs.empty() ? Eigen::Vector2f(Eigen::Vector2f::Zero()) : slot.mesh->uvs[i];
-      const std::uint32_t paint = v.look >= Mesh::kFirstPaint ? v.look - Mesh::kFirstPaint + 1 : 0;
-      slot.painted = slot.painted || paint > 0;
+      const std::uint32_t appearance =
+          v.look >= Mesh::kFirstAppearance ? v.look - Mesh::kFirstAppearance + 1 : 0;
+      slot.painted = slot.painted || appearance > 0;
       vertices.push_back({{v.position.x(), v.position.y(), v.position.z()},
                           {v.normal.x(), v.normal.y(), v.normal.z()},
                           piece,
                           {uv.x(), uv.y()},
-                          paint});
+                          appearance});
       box.extend(Vec3(v.position.cast<double>()));
     }
     if (box.empty()) continue;

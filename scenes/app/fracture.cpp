@@ -226,7 +226,7 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
 /// A solid, its break, and the result.
 struct Attempt {
   scenes::MeshSolid solid;
-  std::vector<Appearance> paints;
+  std::vector<Appearance> appearances;
   fracture::BreakCase example;
   Broken broken;
 
@@ -242,7 +242,7 @@ fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOp
     }
     parse_pattern(options.pattern);  // finds errors before work that may take long
     scenes::MeshOptions mesh = solid_of;
-    mesh.paints = &attempt.paints;
+    mesh.appearances = &attempt.appearances;
     mesh.progress = [&](const char* step, double share) { progress(step, kMeshShare * share); };
     attempt.solid = scenes::make_mesh_solid(options.mesh, mesh);
     return {attempt.solid.compound, command_of(options, attempt.solid.compound)};
@@ -293,7 +293,7 @@ int fracture_mesh(const FractureOptions& options) {
   check_output(options.output);
   std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
   Attempt attempt = break_with_retries(options, *progress);
-  auto& [solid, paints, example, broken] = attempt;
+  auto& [solid, appearances, example, broken] = attempt;
   progress.reset();
   if (const BreakPlan& plan = broken.plan; plan.failed > 0)
     solid.warnings.push_back(
@@ -302,7 +302,7 @@ int fracture_mesh(const FractureOptions& options) {
   options.print(summary(solid, broken));
   if (!options.output.empty()) {
     const std::size_t walled =
-        write_solids(options.output, broken.plan.pieces, stone(), paints, options.explode,
+        write_solids(options.output, broken.plan.pieces, stone(), appearances, options.explode,
                      options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
     options.print("wrote " + options.output + "\n");
     if (walled > 0) {

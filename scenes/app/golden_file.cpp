@@ -245,7 +245,7 @@ std::string view_differences(const Frame& stored, const Scene& scene) {
       names.push_back("colours of " + material.name);
   }
   const std::vector<Appearance> none;
-  if (!std::ranges::equal(stored.paints ? *stored.paints : none, scene.paints,
+  if (!std::ranges::equal(stored.appearances ? *stored.appearances : none, scene.appearances,
                           scenes::same_appearance))
     names.emplace_back("paints");
   std::string text;

@@ -79,22 +79,24 @@ void check_output(const std::string& output) {
 }
 
 std::size_t write_solids(const std::string& output, const std::vector<Compound>& solids,
-                         const std::vector<Material>& materials, std::vector<Appearance> paints,
-                         std::optional<double> explode, Walls walls) {
+                         const std::vector<Material>& materials,
+                         std::vector<Appearance> appearances, std::optional<double> explode,
+                         Walls walls) {
   if (output.ends_with(".png")) {
     constexpr double kDefaultExplode = 0.3;  // makes cracks visible
-    draw_solids(output, solids, materials, std::move(paints), explode.value_or(kDefaultExplode));
+    draw_solids(output, solids, materials, std::move(appearances),
+                explode.value_or(kDefaultExplode));
     return 0;
   }
   std::map<EncodedImage, EncodedImage>
       normals;  // normal maps, as other programs read no height maps
-  for (Appearance& paint : paints) {
-    if (!paint.relief) continue;
-    EncodedImage& known = normals[paint.relief];
-    if (!known) known = render::as_normal_map(paint.relief);
-    paint.relief = known;
+  for (Appearance& appearance : appearances) {
+    if (!appearance.relief) continue;
+    EncodedImage& known = normals[appearance.relief];
+    if (!known) known = render::as_normal_map(appearance.relief);
+    appearance.relief = known;
   }
-  const Model model = make_model(solids, materials, explode.value_or(0), paints, walls);
+  const Model model = make_model(solids, materials, explode.value_or(0), appearances, walls);
   if (is_folder(output)) {
     write_obj_folder(output, model);
   } else {

@@ -26,7 +26,7 @@ View view_of(const Box& box) {
 }  // namespace
 
 void draw_solids(const std::filesystem::path& file, std::span<const Compound> solids,
-                 const std::vector<Material>& materials, std::vector<Appearance> paints,
+                 const std::vector<Material>& materials, std::vector<Appearance> appearances,
                  double explode) {
   Box all, shown;
   for (const Compound& solid : solids) all.extend(bounds(solid));
@@ -52,8 +52,8 @@ void draw_solids(const std::filesystem::path& file, std::span<const Compound> so
   frame.view = view_of(shown);
   frame.meshes = std::move(meshes);
   frame.materials = std::make_shared<std::vector<Material>>(materials);
-  if (!paints.empty())
-    frame.paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
+  if (!appearances.empty())
+    frame.appearances = std::make_shared<const std::vector<Appearance>>(std::move(appearances));
   const auto sink = render::make_picture_sink(file, render::RenderOptions());
   sink->take(std::make_shared<Frame>(std::move(frame)));
   sink->finish();

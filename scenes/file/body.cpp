@@ -121,11 +121,11 @@ void read_named_materials(const Value& table, std::span<const Material> material
 }
 
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
-                       std::vector<Appearance>& paints, std::vector<std::string>& warnings) {
+                       std::vector<Appearance>& appearances, std::vector<std::string>& warnings) {
   const bool built_in = is_built_in(given.mesh);
   const std::string mesh = built_in ? given.mesh : (folder / given.mesh).string();
   MeshOptions options = options_of(given, folder);
-  if (given.look == LookChoice::kFile) options.paints = &paints;
+  if (given.look == LookChoice::kFile) options.appearances = &appearances;
   options.warnings = &warnings;
   return make_compound(mesh, given.material.index, options);
 }
@@ -136,7 +136,7 @@ Vec3 foot_of(const Compound& compound) {
 }
 
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder, std::vector<Appearance>& paints,
+               const std::filesystem::path& folder, std::vector<Appearance>& appearances,
                std::vector<std::string>& warnings) {
   const std::string_view name = body_keys().table;
   check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});
@@ -148,7 +148,7 @@ Body read_body(const Value& table, std::span<const Material> materials,
   const std::vector<Copy> copies = read_copies(table, name);
   Body body{given.name, default_name(mesh.mesh), {}};
   try {
-    Compound compound = read_compound(mesh, folder, paints, warnings);
+    Compound compound = read_compound(mesh, folder, appearances, warnings);
     anchor(compound, given.anchored);
     std::array<std::vector<Compound>, 2> islands;  // of the body, and of its mirror image
     std::array<Vec3, 2> foot_R;

@@ -45,10 +45,10 @@ const Keys<BodyTable>& body_keys();
 
 /// Returns the compound of a mesh in the mesh's own coordinates, with its materials. Files are
 /// relative to `folder`, decompositions are cached (mesh_cache.h), and the appearances in the file
-/// and warnings are appended to `paints` and `warnings` of the scene. Throws InputError without
-/// file and line.
+/// and warnings are appended to `appearances` and `warnings` of the scene. Throws InputError
+/// without file and line.
 Compound read_compound(const MeshTable& given, const std::filesystem::path& folder,
-                       std::vector<Appearance>& paints, std::vector<std::string>& warnings);
+                       std::vector<Appearance>& appearances, std::vector<std::string>& warnings);
 /// Returns the middle of the lower face of a compound's bounding box.
 Vec3 foot_of(const Compound& compound);
 
@@ -60,7 +60,7 @@ struct Body {
 };
 /// Reads a [[body]]. Throws InputError.
 Body read_body(const Value& table, std::span<const Material> materials,
-               const std::filesystem::path& folder, std::vector<Appearance>& paints,
+               const std::filesystem::path& folder, std::vector<Appearance>& appearances,
                std::vector<std::string>& warnings);
 
 }  // namespace sunder::scenes

@@ -31,7 +31,7 @@ Compound make_compound(const std::string& mesh, MaterialIndex material,
                        const MeshOptions& options) {
   MeshSolid solid = make_mesh_solid(mesh, options);
   for (const std::string& warning : solid.warnings) {
-    if (!options.paints || !options.warnings) break;
+    if (!options.appearances || !options.warnings) break;
     if (std::ranges::count(*options.warnings, warning) == 0) options.warnings->push_back(warning);
   }
   Compound compound = std::move(solid.compound);

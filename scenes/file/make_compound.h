@@ -28,8 +28,8 @@ struct MeshOptions {
   /// given names that a polygon has, the most specific decides.
   std::vector<std::pair<std::string, MaterialIndex>> materials{};
   /// The appearances in the file are appended to this, and faces are drawn with them: pass the
-  /// scene's Scene::paints. Null: faces are drawn as their materials.
-  std::vector<Appearance>* paints = nullptr;
+  /// scene's Scene::appearances. Null: faces are drawn as their materials.
+  std::vector<Appearance>* appearances = nullptr;
   /// Warnings about appearances are appended to this, each once; null: there are none.
   std::vector<std::string>* warnings = nullptr;
   bool cached = false;  ///< True if decompositions are cached on disk (mesh_cache.h).

@@ -135,28 +135,28 @@ bool same(const std::optional<MetallicRoughness>& a, const std::optional<Metalli
 
 /// Appends the appearances of a file's groups to those of the scene. Returns the index of each
 /// group's appearance plus one; 0 if it has none.
-std::vector<std::uint32_t> add_paints(const std::vector<std::optional<Appearance>>& of_groups,
-                                      std::vector<Appearance>& paints) {
+std::vector<std::uint32_t> add_appearances(const std::vector<std::optional<Appearance>>& of_groups,
+                                           std::vector<Appearance>& appearances) {
   std::vector<std::uint32_t> numbers;
-  for (const std::optional<Appearance>& paint : of_groups) {
+  for (const std::optional<Appearance>& appearance : of_groups) {
     numbers.push_back(0);
-    if (!paint) continue;
+    if (!appearance) continue;
     const auto known = std::ranges::find_if(
-        paints, [&](const Appearance& other) { return same_appearance(*paint, other); });
-    numbers.back() = static_cast<std::uint32_t>(known - paints.begin()) + 1;
-    if (known == paints.end()) paints.push_back(*paint);
+        appearances, [&](const Appearance& other) { return same_appearance(*appearance, other); });
+    numbers.back() = static_cast<std::uint32_t>(known - appearances.begin()) + 1;
+    if (known == appearances.end()) appearances.push_back(*appearance);
   }
   return numbers;
 }
 
 /// Replaces the marks of all faces, which are indices of groups plus one, by the entries of
-/// `paints` for these groups.
-void set_paints(Compound& compound, const std::vector<std::uint32_t>& paints) {
+/// `appearances` for these groups.
+void set_appearances(Compound& compound, const std::vector<std::uint32_t>& appearances) {
   for (ConvexPtr& convex : compound.convexes) {
     if (!convex->visual) continue;
     auto mesh = std::make_shared<PolygonMesh>(*convex->visual);
     for (PolygonMesh::Face& face : mesh->faces) {
-      face.mark = face.mark > 0 && face.mark <= paints.size() ? paints[face.mark - 1] : 0;
+      face.mark = face.mark > 0 && face.mark <= appearances.size() ? appearances[face.mark - 1] : 0;
     }
     const auto changed = std::make_shared<Convex>(*convex);
     changed->visual = std::move(mesh);
@@ -189,10 +189,10 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   const std::string warning = missing_warning(file, raw.missing_files);
   scale_mesh(raw, options, vacd_of);
   if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
-  std::vector<std::optional<Appearance>> paints;
+  std::vector<std::optional<Appearance>> appearances;
   for (const RawMesh::Group& group : raw.groups) {
-    paints.push_back(group.paint);
-    if (options.paints) vacd_of.painted.push_back(group.paint ? 1 : 0);
+    appearances.push_back(group.appearance);
+    if (options.appearances) vacd_of.painted.push_back(group.appearance ? 1 : 0);
   }
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
   std::optional<MeshSolid> known = options.cached ? load_cached(key) : std::nullopt;
@@ -207,8 +207,9 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   }
   solid.name = std::filesystem::path(file).filename().string();
   if (!warning.empty()) solid.warnings.push_back(warning);
-  set_paints(solid.compound,
-             options.paints ? add_paints(paints, *options.paints) : std::vector<std::uint32_t>());
+  set_appearances(solid.compound, options.appearances
+                                      ? add_appearances(appearances, *options.appearances)
+                                      : std::vector<std::uint32_t>());
   return solid;
 }
 

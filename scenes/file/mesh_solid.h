@@ -18,7 +18,7 @@ namespace sunder::scenes {
 
 /// A compound, and figures of the mesh that it was made from. The materials are indices: 0 is the
 /// default one, i + 1 is that of MeshOptions::materials[i]. A face's mark is an index into
-/// MeshOptions::paints plus one, or 0.
+/// MeshOptions::appearances plus one, or 0.
 struct MeshSolid {
   Compound compound;
   std::string name;

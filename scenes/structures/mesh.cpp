@@ -12,7 +12,7 @@ std::vector<Piece> build_mesh(const void* parameters, const Value& table,
     MeshTable given = *static_cast<const MeshTable*>(parameters);
     read_named_materials(table, context.materials, given);
     const Compound compound =
-        read_compound(given, context.folder, context.paints, context.warnings);
+        read_compound(given, context.folder, context.appearances, context.warnings);
     const Pose to_foot{-foot_of(compound), Quat::Identity()};
     Piece piece;
     for (Part& part : parts_of(compound)) piece.parts.push_back(moved(std::move(part), to_foot));

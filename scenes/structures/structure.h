@@ -28,9 +28,9 @@ struct Piece {
 /// Data of a scene for builders of structures.
 struct BuildContext {
   std::span<const Material> materials;
-  std::filesystem::path folder;        ///< Folder in which files are sought.
-  std::vector<Appearance>& paints;     ///< Appearances of the scene; builders append to them.
-  std::vector<std::string>& warnings;  ///< Warnings of the scene; builders append to them.
+  std::filesystem::path folder;          ///< Folder in which files are sought.
+  std::vector<Appearance>& appearances;  ///< Appearances of the scene; builders append to them.
+  std::vector<std::string>& warnings;    ///< Warnings of the scene; builders append to them.
 };
 
 /// A kind of structure: its keys in the scene file, and its builder.

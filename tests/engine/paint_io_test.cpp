@@ -34,7 +34,7 @@ std::shared_ptr<Frame> textured_frame() {
   auto frame = std::make_shared<Frame>();
   frame->materials = std::make_shared<const std::vector<Material>>(1);
   const auto shared = picture(7);
-  frame->paints = std::make_shared<const std::vector<Appearance>>(std::vector<Appearance>{
+  frame->appearances = std::make_shared<const std::vector<Appearance>>(std::vector<Appearance>{
       {Vec3f(1, 0.5f, 0.25f), shared, true},
       {Vec3f(0, 0, 1), nullptr, false},
       {Vec3f(1, 1, 1), picture(9), false},
@@ -42,8 +42,8 @@ std::shared_ptr<Frame> textured_frame() {
       {Vec3f(0.5f, 1, 1), nullptr, true, shared, -2, MetallicRoughness{0.25f, 1, picture(3)}},
       {Vec3f(0.5f, 1, 1), nullptr, true, nullptr, 1, MetallicRoughness{0.5f, 0}}});
   auto mesh = std::make_shared<Mesh>(*make_ball_mesh(1, MaterialIndex(0)));
-  mesh->vertices[3].look = Mesh::kFirstPaint;
-  mesh->vertices[5].look = Mesh::kFirstPaint + 3;
+  mesh->vertices[3].look = Mesh::kFirstAppearance;
+  mesh->vertices[5].look = Mesh::kFirstAppearance + 3;
   for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
     mesh->uvs.emplace_back(static_cast<float>(v), -0.5f);
   }
@@ -55,10 +55,10 @@ std::shared_ptr<Frame> textured_frame() {
 }
 
 void expect_same(const Frame& read, const Frame& frame) {
-  ASSERT_TRUE(read.paints);
-  ASSERT_EQ(read.paints->size(), frame.paints->size());
-  for (std::size_t p = 0; p < frame.paints->size(); ++p) {
-    const Appearance &got = (*read.paints)[p], &given = (*frame.paints)[p];
+  ASSERT_TRUE(read.appearances);
+  ASSERT_EQ(read.appearances->size(), frame.appearances->size());
+  for (std::size_t p = 0; p < frame.appearances->size(); ++p) {
+    const Appearance &got = (*read.appearances)[p], &given = (*frame.appearances)[p];
     EXPECT_EQ(got.color, given.color);
     EXPECT_EQ(got.v_from_bottom, given.v_from_bottom);
     ASSERT_EQ(got.picture == nullptr, given.picture == nullptr);
@@ -79,9 +79,9 @@ void expect_same(const Frame& read, const Frame& frame) {
       EXPECT_EQ(*got.gloss->picture, *given.gloss->picture);
     }
   }
-  EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[3].picture)
+  EXPECT_EQ((*read.appearances)[0].picture, (*read.appearances)[3].picture)
       << "a shared texture is read once";
-  EXPECT_EQ((*read.paints)[0].picture, (*read.paints)[4].relief);
+  EXPECT_EQ((*read.appearances)[0].picture, (*read.appearances)[4].relief);
   ASSERT_EQ(read.meshes->size(), 2u);
   EXPECT_TRUE(read.meshes->at(0)->uvs.empty());
   const Mesh &got = *read.meshes->at(1), &given = *frame.meshes->at(1);
@@ -118,7 +118,7 @@ TEST_F(AppearanceIo, AnAppearanceWithoutNormalMapAndRoughnessHasTheBytesOfEarlie
 
 TEST_F(AppearanceIo, AVertexOfAMissingAppearanceIsRefused) {
   const auto frame = textured_frame();
-  frame->paints = std::make_shared<const std::vector<Appearance>>(1);
+  frame->appearances = std::make_shared<const std::vector<Appearance>>(1);
   write_frame(path_, *frame);
   EXPECT_THROW(read_frame(path_), InputError);
 }

@@ -57,9 +57,9 @@ void check_frame(const Frame& frame) {
   for (const auto& mesh : *frame.meshes) {
     SUNDER_CHECK(mesh->material.value < frame.materials->size());
     for (const std::uint32_t index : mesh->indices) SUNDER_CHECK(index < mesh->vertices.size());
-    const std::size_t paints = frame.paints ? frame.paints->size() : 0;
+    const std::size_t appearances = frame.appearances ? frame.appearances->size() : 0;
     for (const Mesh::Vertex& vertex : mesh->vertices)
-      SUNDER_CHECK(vertex.look < Mesh::kFirstPaint + paints);
+      SUNDER_CHECK(vertex.look < Mesh::kFirstAppearance + appearances);
     SUNDER_CHECK(mesh->uvs.empty() || mesh->uvs.size() == mesh->vertices.size());
   }
   for (const FrameDebris& chip : frame.debris)

@@ -186,7 +186,7 @@ EncodedImage bytes_of(const std::string& text) {
 TEST(Glb, KeepsAppearancesWithTheirTexturesAndCoordinates) {
   const EncodedImage png = bytes_of("\x89PNG5"), jpeg = bytes_of("\xff\xd8\xff"),
                      other = bytes_of("N");
-  const std::vector<Appearance> paints = {
+  const std::vector<Appearance> appearances = {
       {Vec3f(1, 0.5f, 0.25f), png, true, other, 0.5f, MetallicRoughness{0.25f, 1, jpeg}},
       {Vec3f(0, 0, 1), jpeg, false, png, -2}};
   std::vector<Compound> pieces = two_pieces();
@@ -203,7 +203,7 @@ TEST(Glb, KeepsAppearancesWithTheirTexturesAndCoordinates) {
     piece.convexes[0] = convex;
   }
   const Folder folder;
-  write_glb(folder / "x.glb", make_model(pieces, stone(), 0, paints));
+  write_glb(folder / "x.glb", make_model(pieces, stone(), 0, appearances));
   const RawMesh read = read_mesh(folder / "x.glb");
   std::size_t seen[3] = {};
   for (const RawMesh::Polygon& polygon : read.polygons) {
@@ -212,10 +212,10 @@ TEST(Glb, KeepsAppearancesWithTheirTexturesAndCoordinates) {
     const std::size_t number = name == "paint 1" ? 1 : name == "paint 2" ? 2 : 0;
     ++seen[number];
     if (number == 0) {
-      EXPECT_FALSE(group.paint->picture);
+      EXPECT_FALSE(group.appearance->picture);
       continue;
     }
-    const Appearance &given = paints[number - 1], &got = group.paint.value();
+    const Appearance &given = appearances[number - 1], &got = group.appearance.value();
     EXPECT_EQ(got.color, given.color);
     EXPECT_EQ(*got.picture, *given.picture);
     EXPECT_EQ(*got.relief, *given.relief);
@@ -249,12 +249,12 @@ TEST(ObjFolder, KeepsTheColorsOfAppearances) {
   convex->visual = std::make_shared<const PolygonMesh>(std::move(mesh));
   pieces[0].convexes[0] = convex;
   const Folder folder;
-  const std::vector<Appearance> paints = {{Vec3f(1, 0, 0), nullptr}};
-  write_obj_folder(folder / "out", make_model(pieces, stone(), 0, paints));
+  const std::vector<Appearance> appearances = {{Vec3f(1, 0, 0), nullptr}};
+  write_obj_folder(folder / "out", make_model(pieces, stone(), 0, appearances));
   const RawMesh read = read_mesh(folder / "out/piece_0.obj");
   std::size_t red = 0;
   for (const RawMesh::Polygon& polygon : read.polygons) {
-    const Vec3f color = read.groups.at(polygon.group).paint->color;
+    const Vec3f color = read.groups.at(polygon.group).appearance->color;
     red += (color - Vec3f(1, 0, 0)).norm() < 0.01f;
   }
   EXPECT_EQ(red, 2u);

@@ -60,20 +60,20 @@ TEST_F(Appearances, OfAnObjAreReadFromItsMtl) {
   ASSERT_EQ(mesh.polygons.size(), 5u);
   EXPECT_EQ(mesh.polygons[0].group, RawMesh::kNoGroup);
   EXPECT_EQ(mesh.polygons[1].group, mesh.polygons[4].group);
-  const auto paint = [&](std::size_t polygon) {
-    return mesh.groups[mesh.polygons[polygon].group].paint;
+  const auto appearance = [&](std::size_t polygon) {
+    return mesh.groups[mesh.polygons[polygon].group].appearance;
   };
-  ASSERT_TRUE(paint(1));
-  EXPECT_NEAR(paint(1)->color.x(), 1, 1e-3);
-  EXPECT_NEAR(paint(1)->color.y(), 0.214, 2e-3) << "sRGB to linear";
-  EXPECT_EQ(paint(1)->color.z(), 0);
-  EXPECT_FALSE(paint(1)->picture);
-  ASSERT_TRUE(paint(2));
-  ASSERT_TRUE(paint(2)->picture);
-  EXPECT_EQ(text_of(paint(2)->picture), "PNG!");
-  EXPECT_TRUE(paint(2)->v_from_bottom);
-  EXPECT_EQ(paint(2)->color, Vec3f(1, 1, 1)) << "a black factor of a texture is ignored";
-  EXPECT_FALSE(paint(3));
+  ASSERT_TRUE(appearance(1));
+  EXPECT_NEAR(appearance(1)->color.x(), 1, 1e-3);
+  EXPECT_NEAR(appearance(1)->color.y(), 0.214, 2e-3) << "sRGB to linear";
+  EXPECT_EQ(appearance(1)->color.z(), 0);
+  EXPECT_FALSE(appearance(1)->picture);
+  ASSERT_TRUE(appearance(2));
+  ASSERT_TRUE(appearance(2)->picture);
+  EXPECT_EQ(text_of(appearance(2)->picture), "PNG!");
+  EXPECT_TRUE(appearance(2)->v_from_bottom);
+  EXPECT_EQ(appearance(2)->color, Vec3f(1, 1, 1)) << "a black factor of a texture is ignored";
+  EXPECT_FALSE(appearance(3));
 }
 
 TEST_F(Appearances, FilesMissingOrOutsideTheFolderAreIgnored) {
@@ -83,10 +83,10 @@ TEST_F(Appearances, FilesMissingOrOutsideTheFolderAreIgnored) {
   for (const std::string library : {"a.mtl", "none.mtl", "../secret.mtl"}) {
     write("a.obj", "mtllib " + library + "\n" + kTriangle + "usemtl m\nf 1 2 3\n");
     const RawMesh mesh = read("a.obj");
-    const auto& paint = mesh.groups.at(0).paint;
-    EXPECT_EQ(paint.has_value(), library == "a.mtl") << library;
-    if (paint) {
-      EXPECT_FALSE(paint->picture);
+    const auto& appearance = mesh.groups.at(0).appearance;
+    EXPECT_EQ(appearance.has_value(), library == "a.mtl") << library;
+    if (appearance) {
+      EXPECT_FALSE(appearance->picture);
     }
   }
 }
@@ -114,15 +114,16 @@ TEST_F(Appearances, OfAnMtlHaveANormalMapOrElseABumpMap) {
   const RawMesh mesh = read("a.obj");
   ASSERT_EQ(mesh.groups.size(), 4u);
   const auto relief = [&](std::size_t g) {
-    const Appearance& paint = *mesh.groups[g].paint;
-    return (paint.relief ? text_of(paint.relief) : "none") + std::to_string(paint.normal_scale);
+    const Appearance& appearance = *mesh.groups[g].appearance;
+    return (appearance.relief ? text_of(appearance.relief) : "none") +
+           std::to_string(appearance.normal_scale);
   };
   EXPECT_EQ(relief(0), "N1.000000");
   EXPECT_EQ(relief(1), "N23.000000");
   EXPECT_EQ(relief(2), "H2.000000");
   EXPECT_EQ(relief(3), "none1.000000");
-  EXPECT_TRUE(mesh.groups[0].paint->v_from_bottom);
-  EXPECT_FALSE(mesh.groups[0].paint->picture);
+  EXPECT_TRUE(mesh.groups[0].appearance->v_from_bottom);
+  EXPECT_FALSE(mesh.groups[0].appearance->picture);
 
   write("a.mtl", "newmtl m\nnorm -bm steep normals.png\n");
   expect_refused("a.obj", "a.mtl:2: 'steep' is not a number");
@@ -141,7 +142,7 @@ TEST_F(Appearances, OfAnMtlHaveItsRoughnessOrOneFromItsExponent) {
   }
   write("a.obj", "mtllib a.mtl\n" + kTriangle + faces);
   const RawMesh mesh = read("a.obj");
-  const auto gloss = [&](std::size_t g) { return mesh.groups.at(g).paint->gloss; };
+  const auto gloss = [&](std::size_t g) { return mesh.groups.at(g).appearance->gloss; };
   EXPECT_EQ(gloss(0)->roughness, 0.25f);
   EXPECT_EQ(gloss(0)->metallic, 1);
   EXPECT_NEAR(gloss(1)->roughness, 0.5, 1e-6) << "the fourth root of 2 / (30 + 2)";
@@ -176,20 +177,20 @@ TEST_F(Appearances, OfAGltfHaveItsNormalMapsAndTheirScale) {
 "metallicRoughnessTexture":{"index":0}},"normalTexture":{"index":1}},
 {"normalTexture":{"index":0,"texCoord":1}})"));
   const RawMesh mesh = read("a.gltf");
-  const auto paint = [&](std::size_t g) { return mesh.groups.at(g).paint; };
-  ASSERT_TRUE(paint(0));
-  EXPECT_EQ(text_of(paint(0)->relief), "N");
-  EXPECT_EQ(paint(0)->normal_scale, 0.5f);
-  EXPECT_EQ(paint(0)->color, Vec3f(1, 1, 1)) << "the default of the format";
-  EXPECT_FALSE(paint(1)->relief) << "the file is missing";
-  EXPECT_EQ(paint(1)->color, Vec3f(0, 0, 1));
-  EXPECT_EQ(paint(0)->gloss->roughness, 1) << "the default of the format";
-  EXPECT_EQ(paint(0)->gloss->metallic, 1);
-  EXPECT_FALSE(paint(0)->gloss->picture);
-  EXPECT_EQ(paint(1)->gloss->roughness, 0.5f);
-  EXPECT_EQ(paint(1)->gloss->metallic, 0);
-  EXPECT_EQ(paint(1)->gloss->picture, paint(0)->relief) << "one picture is read once";
-  EXPECT_FALSE(paint(2)->relief) << "uses a set of coordinates that is not read";
+  const auto appearance = [&](std::size_t g) { return mesh.groups.at(g).appearance; };
+  ASSERT_TRUE(appearance(0));
+  EXPECT_EQ(text_of(appearance(0)->relief), "N");
+  EXPECT_EQ(appearance(0)->normal_scale, 0.5f);
+  EXPECT_EQ(appearance(0)->color, Vec3f(1, 1, 1)) << "the default of the format";
+  EXPECT_FALSE(appearance(1)->relief) << "the file is missing";
+  EXPECT_EQ(appearance(1)->color, Vec3f(0, 0, 1));
+  EXPECT_EQ(appearance(0)->gloss->roughness, 1) << "the default of the format";
+  EXPECT_EQ(appearance(0)->gloss->metallic, 1);
+  EXPECT_FALSE(appearance(0)->gloss->picture);
+  EXPECT_EQ(appearance(1)->gloss->roughness, 0.5f);
+  EXPECT_EQ(appearance(1)->gloss->metallic, 0);
+  EXPECT_EQ(appearance(1)->gloss->picture, appearance(0)->relief) << "one picture is read once";
+  EXPECT_FALSE(appearance(2)->relief) << "uses a set of coordinates that is not read";
 
   write("a.gltf", gltf(R"({"normalTexture":{"index":0,"scale":"much"}},{},{})"));
   expect_refused("a.gltf", "a.gltf: scale must be a number");
@@ -225,15 +226,15 @@ TEST_F(Appearances, OfAGltfHaveItsBaseColoursAndTexturesFromAnySource) {
 "buffers":[{"byteLength":40,"uri":"points.bin"}]})");
   const RawMesh mesh = read("a.gltf");
   ASSERT_EQ(mesh.groups.size(), 6u);
-  const auto paint = [&](std::size_t g) { return mesh.groups[g].paint; };
-  EXPECT_EQ(paint(0)->color, Vec3f(0.25f, 0.5f, 1));
-  EXPECT_EQ(text_of(paint(1)->picture), "PNG!");
-  EXPECT_EQ(text_of(paint(2)->picture), "PNG!");
-  EXPECT_EQ(text_of(paint(3)->picture), "JPEG");
-  EXPECT_FALSE(paint(3)->v_from_bottom);
-  ASSERT_TRUE(paint(4));
-  EXPECT_FALSE(paint(4)->picture);
-  EXPECT_FALSE(paint(5)) << "the material has no appearance";
+  const auto appearance = [&](std::size_t g) { return mesh.groups[g].appearance; };
+  EXPECT_EQ(appearance(0)->color, Vec3f(0.25f, 0.5f, 1));
+  EXPECT_EQ(text_of(appearance(1)->picture), "PNG!");
+  EXPECT_EQ(text_of(appearance(2)->picture), "PNG!");
+  EXPECT_EQ(text_of(appearance(3)->picture), "JPEG");
+  EXPECT_FALSE(appearance(3)->v_from_bottom);
+  ASSERT_TRUE(appearance(4));
+  EXPECT_FALSE(appearance(4)->picture);
+  EXPECT_FALSE(appearance(5)) << "the material has no appearance";
 }
 
 }  // namespace

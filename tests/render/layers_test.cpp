@@ -109,9 +109,9 @@ TEST(Layers, OfDepthInMetresAreFloatsThatOtherProgramsRead) {
 TEST(Layers, IncludeTexturedSurfaces) {
   Frame frame = wall();
   auto mesh = std::make_shared<Mesh>(*frame.meshes->front());
-  for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kFirstPaint;
+  for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kFirstAppearance;
   frame.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
-  frame.paints = std::make_shared<const std::vector<Appearance>>(1);
+  frame.appearances = std::make_shared<const std::vector<Appearance>>(1);
   Renderer renderer(with_layers({"ids"}));
   renderer.draw(frame);
   EXPECT_EQ(at(renderer.layers().front().image, kWidth / 2, kHeight / 2),

@@ -45,16 +45,16 @@ Frame wall_frame(Stuff stuff) {
 
 /// Gives the surface of the frame's first mesh this appearance, and texture coordinates from 0 to 1
 /// over the wall.
-void apply_appearance(Frame& frame, const Appearance& paint) {
+void apply_appearance(Frame& frame, const Appearance& appearance) {
   auto mesh = std::make_shared<Mesh>(*(*frame.meshes)[0]);
   for (Mesh::Vertex& vertex : mesh->vertices) {
-    if (vertex.look == Mesh::kSurface) vertex.look = Mesh::kFirstPaint;
+    if (vertex.look == Mesh::kSurface) vertex.look = Mesh::kFirstAppearance;
     const Vec3 at = mesh->origin_T + vertex.position.cast<double>();
     mesh->uvs.emplace_back(static_cast<float>(0.5 + 0.5 * at.x()),
                            static_cast<float>(0.5 - 0.5 * at.y()));
   }
   frame.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
-  frame.paints = std::make_shared<const std::vector<Appearance>>(std::vector{paint});
+  frame.appearances = std::make_shared<const std::vector<Appearance>>(std::vector{appearance});
 }
 
 EncodedImage as_png(const Image& image) {
@@ -93,20 +93,20 @@ Appearance four_colors(bool v_from_bottom) {
 
 TEST(Appearance, TexturesThatAreLeftOutOrScaledDownAreWarnedOf) {
   Renderer renderer({.width = 32, .height = 18});
-  const auto warnings = [&](std::vector<Appearance> paints) {
+  const auto warnings = [&](std::vector<Appearance> appearances) {
     Frame frame = wall_frame(Stuff::kBrick);
-    frame.paints = std::make_shared<const std::vector<Appearance>>(std::move(paints));
+    frame.appearances = std::make_shared<const std::vector<Appearance>>(std::move(appearances));
     renderer.draw(frame);
     return renderer.warnings();
   };
-  std::vector<Appearance> paints;
+  std::vector<Appearance> appearances;
   for (int i = 0; i < 32; ++i)
-    paints.push_back({Vec3f::Ones(), stripes({Vec3f::Constant(static_cast<float>(i))}, true)});
-  EXPECT_TRUE(warnings(paints).empty());
-  paints.push_back({Vec3f::Ones(), stripes({Vec3f::Constant(99)}, true)});
-  paints.push_back(paints.back());  // the same picture again
-  ASSERT_EQ(warnings(paints).size(), 1u);
-  EXPECT_EQ(warnings(paints)[0].find("1 texture of meshes"), 0u) << warnings(paints)[0];
+    appearances.push_back({Vec3f::Ones(), stripes({Vec3f::Constant(static_cast<float>(i))}, true)});
+  EXPECT_TRUE(warnings(appearances).empty());
+  appearances.push_back({Vec3f::Ones(), stripes({Vec3f::Constant(99)}, true)});
+  appearances.push_back(appearances.back());  // the same picture again
+  ASSERT_EQ(warnings(appearances).size(), 1u);
+  EXPECT_EQ(warnings(appearances)[0].find("1 texture of meshes"), 0u) << warnings(appearances)[0];
   const Image wide{1025, 1, std::vector<std::uint8_t>(3 * 1025)};
   ASSERT_EQ(warnings({{Vec3f::Ones(), as_png(wide)}}).size(), 1u);
   EXPECT_NE(warnings({{Vec3f::Ones(), as_png(wide)}})[0].find("scaled down"), std::string::npos);
@@ -218,13 +218,13 @@ TEST(NormalMap, InGreyIsReadAsHeights) {
 }
 
 /// Returns a frame of a ball with this appearance; the sun is behind, above and right of the eye.
-Frame ball_frame(const Appearance& paint, Stuff stuff = Stuff::kPlaster) {
+Frame ball_frame(const Appearance& appearance, Stuff stuff = Stuff::kPlaster) {
   SyntheticFrame s;
   s.add_ball({0, 3, 0}, 1, stuff);
   s.frame.view.eye_W = {0, 3, 4};
   s.frame.view.target_W = {0, 3, 0};
   s.frame.view.to_sun_W = {0.5, 0.7, 1};
-  apply_appearance(s.frame, paint);
+  apply_appearance(s.frame, appearance);
   return s.frame;
 }
 
@@ -285,10 +285,10 @@ TEST(MetallicRoughness, OfTheFileReplacesTheMaterials) {
 
 TEST(MetallicRoughness, OfATextureIsGreenTimesRoughnessAndBlueTimesMetallic) {
   // The left half is smooth lacquer, the right half rough metal; the red channel is not used.
-  Appearance paint = glossy(1, 1, Vec3f(0.8f, 0.5f, 0.1f));
+  Appearance appearance = glossy(1, 1, Vec3f(0.8f, 0.5f, 0.1f));
   const auto image = [&](const std::vector<Vec3f>& halves) {
-    paint.gloss->picture = stripes(halves, false, 32);
-    return drawn(ball_frame(paint));
+    appearance.gloss->picture = stripes(halves, false, 32);
+    return drawn(ball_frame(appearance));
   };
   const Vec3f lacquer(255, 51, 0), metal(0, 255, 255);
   const Image both = image({lacquer, metal});
@@ -300,8 +300,8 @@ TEST(MetallicRoughness, OfATextureIsGreenTimesRoughnessAndBlueTimesMetallic) {
   EXPECT_LT(near(both, all_metal, 170, 195), 1);
   EXPECT_GT(near(all_lacquer, all_metal, 125, 150), 10);
   EXPECT_GT(near(all_lacquer, all_metal, 170, 195), 10);
-  paint.gloss = MetallicRoughness{0.2f, 0};
-  EXPECT_LT(near(all_lacquer, drawn(ball_frame(paint)), 125, 195), 1) << "51 of 255 is 0.2";
+  appearance.gloss = MetallicRoughness{0.2f, 0};
+  EXPECT_LT(near(all_lacquer, drawn(ball_frame(appearance)), 125, 195), 1) << "51 of 255 is 0.2";
 }
 
 TEST(Appearance, BrokenFacesAreDrawnInTheirMaterial) {
@@ -330,9 +330,9 @@ TEST(Appearance, EachFrameIsDrawnWithItsOwn) {
 
 TEST(Appearance, WithAnUnreadableTextureIsRefused) {
   Frame frame = wall_frame(Stuff::kConcrete);
-  Appearance paint;
-  paint.picture = std::make_shared<const std::vector<std::byte>>(20);
-  apply_appearance(frame, paint);
+  Appearance appearance;
+  appearance.picture = std::make_shared<const std::vector<std::byte>>(20);
+  apply_appearance(frame, appearance);
   EXPECT_THROW(drawn(frame), InputError);
   EXPECT_NO_THROW(drawn(wall_frame(Stuff::kConcrete)))
       << "the renderer can be used after the error";

@@ -73,7 +73,7 @@ std::size_t count_textured_vertices(const Frame& frame) {
   for (const Instance& instance : frame.instances) {
     const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
     for (const Mesh::Vertex& vertex : mesh.vertices) {
-      if (vertex.look < Mesh::kFirstPaint) continue;
+      if (vertex.look < Mesh::kFirstAppearance) continue;
       const Vec3 away = mesh.origin_T + vertex.position.cast<double>() - kMiddle;
       EXPECT_GT(vertex.normal.cast<double>().dot(away.normalized()), 0.9);
       ++count;
@@ -84,9 +84,9 @@ std::size_t count_textured_vertices(const Frame& frame) {
 
 TEST_F(MeshAppearances, AreInTheSceneOnceEach) {
   const Scene scene = load(kBody + kBody + "position = [5, 0, 0]\n");
-  ASSERT_EQ(scene.paints.size(), 2u);
-  EXPECT_EQ(scene.paints[0].color, Vec3f(1, 0, 0));
-  EXPECT_EQ(scene.paints[1].color, Vec3f(0, 0, 1));
+  ASSERT_EQ(scene.appearances.size(), 2u);
+  EXPECT_EQ(scene.appearances[0].color, Vec3f(1, 0, 0));
+  EXPECT_EQ(scene.appearances[1].color, Vec3f(0, 0, 1));
   for (const Solid& solid : scene.solids) {
     for (const ConvexPtr& convex : solid.compound.convexes) {
       ASSERT_TRUE(convex->visual);
@@ -101,26 +101,26 @@ TEST_F(MeshAppearances, OfTwoBodiesShareTheirTextures) {
   write("a.png", "one");
   write("b.png", "two");
   const Scene scene = load(kBody + kBody + "position = [5, 0, 0]\n");
-  ASSERT_EQ(scene.paints.size(), 2u);
-  EXPECT_NE(*scene.paints[0].picture, *scene.paints[1].picture);
+  ASSERT_EQ(scene.appearances.size(), 2u);
+  EXPECT_NE(*scene.appearances[0].picture, *scene.appearances[1].picture);
 }
 
 TEST_F(MeshAppearances, ThatDifferInNormalMapOrRoughnessOnlyAreTwo) {
   const std::string same_color = "newmtl red\nKd 1 0 0\nnorm n.png\nnewmtl blue\nKd 1 0 0\n";
   write("n.png", "N");
   write("box.mtl", same_color);
-  ASSERT_EQ(load(kBody).paints.size(), 2u);
+  ASSERT_EQ(load(kBody).appearances.size(), 2u);
   write("box.mtl", same_color + "norm -bm 2 n.png\n");
-  ASSERT_EQ(load(kBody).paints.size(), 2u);
+  ASSERT_EQ(load(kBody).appearances.size(), 2u);
   write("box.mtl", same_color + "norm n.png\n");
-  EXPECT_EQ(load(kBody).paints.size(), 1u);
+  EXPECT_EQ(load(kBody).appearances.size(), 1u);
   write("box.mtl", same_color + "norm n.png\nPr 0.5\n");
-  EXPECT_EQ(load(kBody).paints.size(), 2u);
+  EXPECT_EQ(load(kBody).appearances.size(), 2u);
 }
 
 TEST_F(MeshAppearances, AreLeftOutIfTheBodyUsesTheLookOfItsMaterial) {
   const Scene scene = load(kBody + "look = \"material\"\n");
-  EXPECT_TRUE(scene.paints.empty());
+  EXPECT_TRUE(scene.appearances.empty());
   for (const ConvexPtr& convex : scene.solids.at(0).compound.convexes) {
     for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.mark, 0u);
   }
@@ -174,8 +174,8 @@ TEST_F(MeshAppearances, StayOnTheOuterSurfaceThroughABreak) {
   FramePtr last;
   while (FramePtr frame = simulation->next()) last = std::move(frame);
   ASSERT_GT(last->bodies.size(), 10u) << "it breaks";
-  ASSERT_TRUE(last->paints);
-  ASSERT_EQ(last->paints->size(), 2u);
+  ASSERT_TRUE(last->appearances);
+  ASSERT_EQ(last->appearances->size(), 2u);
   const Box box{Vec3(0, 0, 0), Vec3(1, 2, 1)};
   std::size_t textured = 0, broken = 0;
   for (const Instance& instance : last->instances) {

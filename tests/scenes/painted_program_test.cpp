@@ -52,14 +52,14 @@ TEST(Fracture, OfATexturedFileGivesTexturedPieces) {
   const RawMesh pieces = read_mesh(folder / "x.glb");
   std::size_t textured = 0, inside = 0;
   for (const RawMesh::Polygon& polygon : pieces.polygons) {
-    const Appearance paint = pieces.groups.at(polygon.group).paint.value();
-    inside += !paint.picture;
-    if (!paint.picture) continue;
+    const Appearance appearance = pieces.groups.at(polygon.group).appearance.value();
+    inside += !appearance.picture;
+    if (!appearance.picture) continue;
     ++textured;
-    EXPECT_EQ(*paint.picture, read_file(folder / "color.png"));
-    EXPECT_EQ(paint.gloss->roughness, 0.5f);
-    EXPECT_EQ(paint.normal_scale, 2);
-    const render::Image normals = render::decode_picture(*paint.relief);
+    EXPECT_EQ(*appearance.picture, read_file(folder / "color.png"));
+    EXPECT_EQ(appearance.gloss->roughness, 0.5f);
+    EXPECT_EQ(appearance.normal_scale, 2);
+    const render::Image normals = render::decode_picture(*appearance.relief);
     EXPECT_EQ(normals.width, 4);
     EXPECT_GT(normals.rgb[2], normals.rgb[0] + 20) << "heights are exported as normals";
     for (std::uint32_t c = polygon.first_corner; c < polygon.first_corner + 3; ++c) {

@@ -22,14 +22,14 @@ std::string part_name(std::size_t index, std::size_t count) {
 
 /// Returns the index of a face's material: two per material of the scene, then those from files.
 std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
-                          std::uint32_t first_paint) {
+                          std::uint32_t first_appearance) {
   if (face.kind == FaceKind::kInterior) return 2 * material.value + 1;
-  return face.mark > 0 ? first_paint + face.mark - 1 : 2 * material.value;
+  return face.mark > 0 ? first_appearance + face.mark - 1 : 2 * material.value;
 }
 
 /// Returns the shells of a piece. Sets `is_walled` to 1 if inner walls could not be removed.
-std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_paint, Walls walls,
-                                    std::uint8_t& is_walled) {
+std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_appearance,
+                                    Walls walls, std::uint8_t& is_walled) {
   std::vector<std::shared_ptr<const PolygonMesh>> meshes;
   std::vector<const PolygonMesh*> pointers;
   for (const ConvexPtr& convex : piece.convexes) {
@@ -43,7 +43,7 @@ std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_p
     std::vector<std::uint32_t> materials;
     for (std::size_t f = 0; f < mesh->faces.size(); ++f) {
       const MaterialIndex material = piece.convexes[convex_of(f)]->material;
-      materials.push_back(material_of(mesh->faces[f], material, first_paint));
+      materials.push_back(material_of(mesh->faces[f], material, first_appearance));
     }
     shells.push_back({std::move(mesh), std::move(materials)});
   };
@@ -65,17 +65,19 @@ std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_p
 }  // namespace
 
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
-                 double explode, std::span<const Appearance> paints, Walls walls) {
+                 double explode, std::span<const Appearance> appearances, Walls walls) {
   Model model;
   for (const Material& material : materials) {
     model.materials.push_back({material.name, {material.surface.color, nullptr}});
     model.materials.push_back({material.name + " inside", {material.interior.color, nullptr}});
   }
-  const auto first_paint = static_cast<std::uint32_t>(model.materials.size());
-  for (std::size_t p = 0; p < paints.size(); ++p) {
-    model.materials.push_back({"paint " + std::to_string(p + 1), paints[p]});
+  const auto first_appearance = static_cast<std::uint32_t>(model.materials.size());
+  for (std::size_t p = 0; p < appearances.size(); ++p) {
+    model.materials.push_back({"paint " + std::to_string(p + 1), appearances[p]});
   }
-  const auto is_known = [&](const PolygonMesh::Face& face) { return face.mark <= paints.size(); };
+  const auto is_known = [&](const PolygonMesh::Face& face) {
+    return face.mark <= appearances.size();
+  };
   Box all;
   for (const Compound& piece : pieces) all.extend(bounds(piece));
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -90,7 +92,7 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
   }
   std::vector<std::uint8_t> is_walled(pieces.size(), 0);
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
-    model.parts[p].shells = shells_of(pieces[p], first_paint, walls, is_walled[p]);
+    model.parts[p].shells = shells_of(pieces[p], first_appearance, walls, is_walled[p]);
   });
   model.parts_with_walls = static_cast<std::size_t>(std::ranges::count(is_walled, 1));
   return model;

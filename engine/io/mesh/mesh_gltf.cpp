@@ -35,11 +35,12 @@ Eigen::Matrix4d local_matrix(const json& node, const GltfData& data) {
 
 class GltfScene {
  public:
-  explicit GltfScene(const MeshSource& source) : source_(source), data_(source), paints_(data_) {}
+  explicit GltfScene(const MeshSource& source)
+      : source_(source), data_(source), appearances_(data_) {}
 
   RawMesh read() {
     add_scene();
-    mesh_.missing_files = paints_.missing();
+    mesh_.missing_files = appearances_.missing();
     return std::move(mesh_);
   }
 
@@ -82,7 +83,7 @@ class GltfScene {
       if (primitive.is_object() && primitive.contains("material")) {
         const json& used = materials[data_.index(primitive, "material", materials.size())];
         material = name_of(used);
-        group.paint = paints_.of(used);
+        group.appearance = appearances_.of(used);
       }
       for (const std::string& name : {node_name, name_of(mesh), material}) {
         if (!name.empty()) group.names.push_back(name);
@@ -149,7 +150,7 @@ class GltfScene {
 
   const MeshSource& source_;
   GltfData data_;
-  GltfMaterials paints_;
+  GltfMaterials appearances_;
   RawMesh mesh_;
   std::size_t nodes_visited_ = 0;
 };

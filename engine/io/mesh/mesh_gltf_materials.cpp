@@ -10,18 +10,18 @@ std::optional<Appearance> GltfMaterials::of(const json& material) {
   const json& base = data_.object(material, "pbrMetallicRoughness");
   const json& relief = data_.object(material, "normalTexture");
   if (base.empty() && relief.empty()) return std::nullopt;
-  Appearance paint;
+  Appearance appearance;
   const std::vector<double> color = data_.numbers(base, "baseColorFactor", {1, 1, 1, 1});
-  paint.color = Vec3(color[0], color[1], color[2]).cwiseMax(0).cwiseMin(1).cast<float>();
-  paint.picture = used(data_.object(base, "baseColorTexture"));
-  paint.relief = used(relief);
-  paint.normal_scale = static_cast<float>(data_.number(relief, "scale", 1));
+  appearance.color = Vec3(color[0], color[1], color[2]).cwiseMax(0).cwiseMin(1).cast<float>();
+  appearance.picture = used(data_.object(base, "baseColorTexture"));
+  appearance.relief = used(relief);
+  appearance.normal_scale = static_cast<float>(data_.number(relief, "scale", 1));
   const auto share = [&](const char* name) {
     return static_cast<float>(std::clamp(data_.number(base, name, 1), 0.0, 1.0));
   };
-  paint.gloss = {share("roughnessFactor"), share("metallicFactor"),
-                 used(data_.object(base, "metallicRoughnessTexture"))};
-  return paint;
+  appearance.gloss = {share("roughnessFactor"), share("metallicFactor"),
+                      used(data_.object(base, "metallicRoughnessTexture"))};
+  return appearance;
 }
 
 EncodedImage GltfMaterials::used(const json& use) {

@@ -24,13 +24,13 @@ float share(double number) { return static_cast<float>(std::clamp(number, 0.0, 1
 
 /// A material as an MTL file defines it.
 struct MtlMaterial {
-  Appearance paint;
+  Appearance appearance;
   std::optional<float> roughness, metallic;  ///< Pr and Pm.
   std::optional<double> exponent;            ///< Ns.
   bool has_highlights = true;                ///< False if Ks is black.
 
   Appearance appearance() const {
-    Appearance result = paint;
+    Appearance result = appearance;
     if (!roughness && !metallic && !(exponent && has_highlights)) return result;
     result.gloss.emplace().metallic = metallic.value_or(0);
     if (roughness || (exponent && has_highlights)) {
@@ -106,11 +106,11 @@ class FolderImages {
 
 std::map<std::string, Appearance> read_mtl(const MeshSource& source, const std::string& name,
                                            std::vector<std::string>& missing) {
-  std::map<std::string, Appearance> paints;
+  std::map<std::string, Appearance> appearances;
   const std::optional<std::string> bytes = source.beside(name);
   if (!bytes) {
     if (!name.empty()) missing.push_back(name);
-    return paints;
+    return appearances;
   }
   const MeshSource file{*bytes, source.file.parent_path() / name, source.limits};
   std::map<std::string, MtlMaterial> materials;
@@ -120,21 +120,22 @@ std::map<std::string, Appearance> read_mtl(const MeshSource& source, const std::
   MtlMaterial* material = &none;
   while (text.next_line()) {
     const std::string_view keyword = text.word();
-    Appearance& paint = material->paint;
+    Appearance& appearance = material->appearance;
     if (keyword == "newmtl") {
       material = &materials[text.words()];
-      material->paint.v_from_bottom = true;
+      material->appearance.v_from_bottom = true;
     } else if (keyword == "Kd") {
-      if (const auto color = take_color(text)) paint.color = color->unaryExpr(&linear);
+      if (const auto color = take_color(text)) appearance.color = color->unaryExpr(&linear);
     } else if (keyword == "map_Kd") {
-      paint.picture = pictures.find(take_picture_use(text).name);
+      appearance.picture = pictures.find(take_picture_use(text).name);
       // exporters write black for an untinted image
-      if (paint.picture && paint.color.isZero()) paint.color.setOnes();
-    } else if (keyword == "norm" || (!paint.relief && (keyword == "bump" || keyword == "map_bump" ||
-                                                       keyword == "map_Bump"))) {
+      if (appearance.picture && appearance.color.isZero()) appearance.color.setOnes();
+    } else if (keyword == "norm" ||
+               (!appearance.relief &&
+                (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump"))) {
       const PictureUse use = take_picture_use(text);
-      paint.relief = pictures.find(use.name);
-      paint.normal_scale = static_cast<float>(use.scale);
+      appearance.relief = pictures.find(use.name);
+      appearance.normal_scale = static_cast<float>(use.scale);
     } else if (keyword == "Ks") {
       if (const auto color = take_color(text)) material->has_highlights = !color->isZero();
     } else if (keyword == "Ns") {
@@ -145,8 +146,8 @@ std::map<std::string, Appearance> read_mtl(const MeshSource& source, const std::
       material->metallic = share(text.number());
     }
   }
-  for (const auto& [called, found] : materials) paints.emplace(called, found.appearance());
-  return paints;
+  for (const auto& [called, found] : materials) appearances.emplace(called, found.appearance());
+  return appearances;
 }
 
 }  // namespace sunder

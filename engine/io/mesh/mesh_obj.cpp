@@ -64,7 +64,7 @@ class ObjReader {
       names_ = {{}, text_.words(), names_.material};
       group_ = RawMesh::kNoGroup;
     } else if (keyword == "mtllib") {
-      paints_.merge(read_mtl(source_, text_.words(), mesh_.missing_files));
+      appearances_.merge(read_mtl(source_, text_.words(), mesh_.missing_files));
     } else if (keyword == "usemtl") {
       names_.material = text_.words();
       group_ = RawMesh::kNoGroup;
@@ -82,9 +82,9 @@ class ObjReader {
     for (const std::string& name : {names_.object, names_.material}) {
       if (!name.empty()) names.push_back(name);
     }
-    const auto paint = paints_.find(names_.material);
+    const auto appearance = appearances_.find(names_.material);
     mesh_.groups.push_back({std::move(names), {}});
-    if (paint != paints_.end()) mesh_.groups.back().paint = paint->second;
+    if (appearance != appearances_.end()) mesh_.groups.back().appearance = appearance->second;
     return group_;
   }
 
@@ -139,7 +139,7 @@ class ObjReader {
   /// Group of `names_`, or kNoGroup if not determined yet.
   std::uint32_t group_ = RawMesh::kNoGroup;
   std::map<Names, std::uint32_t> group_of_names_;
-  std::map<std::string, Appearance> paints_;  ///< By name of the material.
+  std::map<std::string, Appearance> appearances_;  ///< By name of the material.
   std::vector<std::uint32_t> polygon_, corner_uvs_, corner_normals_;
   std::array<ObjList, 3> lists_{{{"vertex"}, {"texture coordinate"}, {"normal"}}};
 };

@@ -46,7 +46,7 @@ class RecordingReader::Playback {
   std::vector<BlockPlace> mesh_blocks_, frame_blocks_;
   std::shared_ptr<const std::vector<Material>> materials_;
   std::shared_ptr<const std::vector<std::string>> names_;
-  std::shared_ptr<const std::vector<Appearance>> paints_;
+  std::shared_ptr<const std::vector<Appearance>> appearances_;
   std::shared_ptr<MeshStore> meshes_ = std::make_shared<MeshStore>();
   std::size_t mesh_blocks_read_ = 0;
 
@@ -89,7 +89,7 @@ RecordingReader::Playback::Playback(const std::filesystem::path& path) : file_(p
     names_ = std::make_shared<const std::vector<std::string>>(take_names(in));
   coder_ = FrameCoder(version);
   if (!in.at_end())
-    paints_ = std::make_shared<const std::vector<Appearance>>(take_paints(in, file_));
+    appearances_ = std::make_shared<const std::vector<Appearance>>(take_appearances(in, file_));
 }
 
 /// Registers a block. Blocks are in the order of the run, each with its frame or mesh index.
@@ -240,7 +240,7 @@ FramePtr RecordingReader::Playback::decode(std::uint32_t frame) {
   auto result = std::make_shared<Frame>(std::move(take.frame));
   result->materials = materials_;
   result->names = names_;
-  result->paints = paints_;
+  result->appearances = appearances_;
   result->meshes = meshes_;
   body_hashes_ = std::move(take.body_hashes);
   decoded_ = frame;
@@ -260,9 +260,9 @@ void RecordingReader::Playback::read_meshes(std::uint32_t until) {
     ByteReader in(content, file_);
     std::vector<Mesh> meshes(in.take_count(kMinMeshBytes));
     for (Mesh& mesh : meshes) mesh = take_mesh(in, file_, materials_->size());
-    if (paints_) take_uvs(in, file_, meshes);
+    if (appearances_) take_uvs(in, file_, meshes);
     for (Mesh& mesh : meshes) {
-      check_appearances(mesh, file_, paints_ ? paints_->size() : 0);
+      check_appearances(mesh, file_, appearances_ ? appearances_->size() : 0);
       meshes_->push_back(std::make_shared<const Mesh>(std::move(mesh)));
     }
     ++mesh_blocks_read_;

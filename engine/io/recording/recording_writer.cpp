@@ -132,7 +132,7 @@ void RecordingWriter::Recording::write(const Frame& frame) {
     ByteWriter content;
     put(content, *materials_);
     put_names(content, frame.names ? *frame.names : std::vector<std::string>());
-    if (frame.paints) put(content, *frame.paints);
+    if (frame.appearances) put(content, *frame.appearances);
     append(BlockKind::kMaterials, 0, content.bytes.size(), other_packer_.pack(content.bytes));
   }
   SUNDER_CHECK(frame.materials == materials_);  // a recording is of one run
@@ -156,7 +156,7 @@ void RecordingWriter::Recording::write_new_meshes(const Frame& frame) {
   ByteWriter content;
   content.put(static_cast<std::uint32_t>(frame.meshes->size() - meshes_));
   for (std::size_t m = meshes_; m < frame.meshes->size(); ++m) put(content, *(*frame.meshes)[m]);
-  if (frame.paints) put_uvs(content, std::span(*frame.meshes).subspan(meshes_));
+  if (frame.appearances) put_uvs(content, std::span(*frame.meshes).subspan(meshes_));
   other_packer_.restart();
   append(BlockKind::kMeshes, static_cast<std::uint32_t>(meshes_), content.bytes.size(),
          other_packer_.pack(content.bytes));

@@ -27,7 +27,7 @@ struct World {
   const std::shared_ptr<const std::vector<Material>> materials;
   /// Names of solids, balls, then shots.
   const std::shared_ptr<const std::vector<std::string>> names;
-  const std::shared_ptr<const std::vector<Appearance>> paints;  ///< Null if there are none.
+  const std::shared_ptr<const std::vector<Appearance>> appearances;  ///< Null if there are none.
   const std::unique_ptr<Physics> physics;
   Clock clock;
   Actors actors;
@@ -43,9 +43,9 @@ struct World {
       : scene(std::move(given)),
         materials(std::make_shared<const std::vector<Material>>(scene.materials)),
         names(std::make_shared<const std::vector<std::string>>(object_names(scene))),
-        paints(scene.paints.empty()
-                   ? nullptr
-                   : std::make_shared<const std::vector<Appearance>>(scene.paints)),
+        appearances(scene.appearances.empty()
+                        ? nullptr
+                        : std::make_shared<const std::vector<Appearance>>(scene.appearances)),
         physics(std::move(moves)),
         clock(scene.accuracy) {}
 
