@@ -29,7 +29,7 @@ struct MtlMaterial {
   std::optional<double> exponent;            ///< Ns.
   bool has_highlights = true;                ///< False if Ks is black.
 
-  Appearance appearance() const {
+  Appearance resolved() const {
     Appearance result = appearance;
     if (!roughness && !metallic && !(exponent && has_highlights)) return result;
     result.gloss.emplace().metallic = metallic.value_or(0);
@@ -146,7 +146,7 @@ std::map<std::string, Appearance> read_mtl(const MeshSource& source, const std::
       material->metallic = share(text.number());
     }
   }
-  for (const auto& [called, found] : materials) appearances.emplace(called, found.appearance());
+  for (const auto& [called, found] : materials) appearances.emplace(called, found.resolved());
   return appearances;
 }
 
