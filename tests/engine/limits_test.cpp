@@ -81,7 +81,7 @@ struct LimitsRun {
   }
 };
 
-Contacts none(const ScriptedPhysics&, int) { return {}; }
+Contacts no_contacts(const ScriptedPhysics&, int) { return {}; }
 
 /// Returns a script of several contacts at every collide.
 ScriptedPhysics::Script joined(std::vector<ScriptedPhysics::Script> scripts) {
@@ -133,7 +133,7 @@ TEST(Limits, ASolidWithTooManyBondsForStressByImpactIsCountedOnceWhenItIsMade) {
     Scene scene = scene_of({{"bar", row_of_boxes(3), {}}}, {});
     scene.materials[0].tensile_Pa = 1e6;
     scene.limits.impact_bonds = bonds;
-    LimitsRun run(scene, none);
+    LimitsRun run(scene, no_contacts);
     EXPECT_EQ(names(*run.first), bonds == 2 ? Names() : (Names{{"impact_bonds", 1}}));
     EXPECT_EQ(names(*run.simulation->next()), Names());
   }
@@ -157,7 +157,7 @@ TEST(Limits, SmallPiecesAreCountedByNameButNeitherSummedNorWarnedOf) {
     Scene scene = scene_of({{"bar", row_of_boxes(4), {}}}, {});
     scene.materials[0].tensile_Pa = 1e6;
     scene.limits.loaded_convexes = least;
-    LimitsRun run(scene, none, halves);
+    LimitsRun run(scene, no_contacts, halves);
     run.physics->loads = {{0, 1, Vec3(0, -1000, 0), Vec3(1, 1, 0)}};
     const FramePtr frame = run.simulation->next();
     ASSERT_EQ(frame->bodies.size(), 2u);
@@ -245,7 +245,7 @@ TEST(Limits, ASteadyLoadWhoseStressDoesNotConvergeIsCounted) {
   Scene scene = scene_of({{"bar", row_of_boxes(2), {}}}, {});
   scene.materials[0].tensile_Pa = 1e6;
   scene.solids[0].compound.anchored[0] = true;
-  LimitsRun run(scene, none, [&](const Structure&, const LoadCase&) {
+  LimitsRun run(scene, no_contacts, [&](const Structure&, const LoadCase&) {
     StressResult answer;
     answer.settled = answer.gave_up = true;
     return answer;
