@@ -185,7 +185,8 @@ TEST(VideoSink, AnOddSizeIsRefusedWithAnEvenOneWhileAPictureMayHaveIt) {
     make_picture_sink(folder / "v.mp4", odd);
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("make it 162x92"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("use --size 162x92"), std::string::npos)
+        << error.what();
   }
   const auto sink = make_picture_sink(folder / "p.png", odd);
   take_frames(*sink, 1);

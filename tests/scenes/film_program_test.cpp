@@ -91,7 +91,7 @@ TEST_F(Film, OptionsThatDoNotApplyAreRefusedByName) {
   expect_refused(recording() + " --view nowhere.toml" + x, "nowhere.toml");
   expect_refused(recording() + " --speed 0" + x, "--speed");
   expect_refused(recording() + " --fps 0" + x, "--fps");
-  expect_refused(recording() + " --sheet 4 -o " + folder_ / "x.mp4", "X.png");
+  expect_refused(recording() + " --sheet 4 -o " + folder_ / "x.mp4", "does not end in .png");
   const std::string frame = SUNDER_ROOT "/tests/golden/stack.frame";
   for (const char* flag : {"--frames 2", "--speed 0.5", "--fps 30", "--sheet 4"})
     expect_refused(frame + " " + flag + x, "is a single frame");

@@ -91,7 +91,7 @@ TEST(Posts, OfFiveCentimetresAndSixMetresDoNotBearSixTonnes) {
   bool told = false;
   for (const std::string& warning : info.warnings) {
     told |= warning.starts_with(
-        "the post 'post' bears 6e+03 kg and would buckle: Euler's critical load is 691 kg for a "
+        "the post 'post' carries 6e+03 kg and would buckle: Euler's critical load is 691 kg for a "
         "height of 6 m, clamped at the foot and free at its head (K = 2.0)");
   }
   EXPECT_TRUE(told) << post_warning(scene);
