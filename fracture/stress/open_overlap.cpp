@@ -104,7 +104,7 @@ BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const ConvexSlot cut = choose_cut(structure, a, b);
   const Convex& old = *structure.convex(cut);
   const double thinnest_m = kThinnest * std::cbrt(old.solid.volume_m3);
-  const ConvexSlot opened = cut == a ? b : a;
+  const ConvexSlot opened = cut == a ? b : cut == b ? a : ConvexSlot();  // none() of a third
 
   std::vector<ConvexSlot> around, held;  // The overlaps of `held` with surface convexes are kept.
   std::vector<const ConvexPolyhedron*> others;

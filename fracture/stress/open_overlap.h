@@ -4,7 +4,6 @@
 // Read first: open_overlap().
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "engine/model/breaker.h"
