@@ -17,28 +17,49 @@ namespace {
 /// which it is a rounding error.
 constexpr double kThinnest = 1e-9;
 /// Share of an embedded part's surface below which its faces cancel: the part goes through the
-/// other convex and is held by shear alone.
+/// other convex, held against pull by shear and against bending by pressure.
 constexpr double kPassesThrough = 0.1;
 
 bool has_face(const Convex& convex, PlaneId id) {
   return std::ranges::any_of(convex.polyhedron.faces, [&](const auto& f) { return f.id == id; });
 }
 
-/// Surface of an overlap that lies on one of its two convexes.
+/// Returns true if a face lies on the surface of a convex that its polyhedron is inside.
+bool lies_on_surface(const ConvexPolyhedron& inside, std::size_t face, const Convex& of) {
+  const double tolerance_m = kThinnest * std::cbrt(of.solid.volume_m3);
+  return std::ranges::any_of(of.polyhedron.faces, [&](const auto& other) {
+    return std::ranges::all_of(inside.face_corners(face), [&](std::uint32_t v) {
+      return other.plane.distance(inside.vertices[v]) > -tolerance_m;
+    });
+  });
+}
+
+/// Surface of one of two convexes inside the other.
 struct EmbeddedSurface {
   double area_m2 = 0;
   Vec3 vector_area_m2 = Vec3::Zero();  ///< Sum of area times outward normal.
 };
 
-EmbeddedSurface surface_on(const Convex& overlap, const Convex& side) {
+EmbeddedSurface embedded_surface(const Convex& overlap, const Convex& of, const Convex& in) {
   EmbeddedSurface all;
   for (std::uint32_t f = 0; f < overlap.polyhedron.faces.size(); ++f) {
-    if (!has_face(side, overlap.polyhedron.faces[f].id)) continue;
+    if (!has_face(of, overlap.polyhedron.faces[f].id)) continue;
+    if (lies_on_surface(overlap.polyhedron, f, in)) continue;
     const double area_m2 = face_area(overlap.polyhedron, f);
     all.area_m2 += area_m2;
     all.vector_area_m2 += area_m2 * overlap.polyhedron.faces[f].plane.normal;
   }
   return all;
+}
+
+/// Returns the surface along which two convexes that overlap separate, as one of the first: the
+/// smaller of the two. Of two materials, that of the first, which fills the overlap.
+EmbeddedSurface separating_surface(const Convex& overlap, const Convex& a, const Convex& b) {
+  const EmbeddedSurface of_a = embedded_surface(overlap, a, b);
+  if (a.material != b.material) return of_a;
+  const EmbeddedSurface of_b = embedded_surface(overlap, b, a);
+  if (!(of_b.area_m2 > 0) || (of_a.area_m2 > 0 && of_a.area_m2 <= of_b.area_m2)) return of_a;
+  return {of_b.area_m2, -of_b.vector_area_m2};
 }
 
 /// Returns the convexes that overlap a convex, ascending, and whether the overlap has volume.
@@ -80,24 +101,24 @@ ConvexSlot choose_cut(const Structure& structure, ConvexSlot a, ConvexSlot b) {
 double overlap_utilisation(const Compound& compound, const Ghost& ghost, const Wrench& wrench,
                            std::span<const Material> materials) {
   const Convex &a = *compound.convexes[ghost.of[0]], &b = *compound.convexes[ghost.of[1]];
-  const EmbeddedSurface on_a = surface_on(*ghost.convex, a), on_b = surface_on(*ghost.convex, b);
-  const double surface_m2 = std::min(on_a.area_m2, on_b.area_m2);
-  if (!(surface_m2 > 0)) return 0;
+  const EmbeddedSurface surface = separating_surface(*ghost.convex, a, b);
+  if (!(surface.area_m2 > 0)) return 0;
   const Strength strength = weaker_of(materials[a.material.value], materials[b.material.value]);
-  double section_m2 = on_a.vector_area_m2.norm();
-  Vec3 normal = Vec3::Zero();
-  if (section_m2 > kPassesThrough * surface_m2) {
-    normal = on_a.vector_area_m2 / section_m2;
-  } else {
-    section_m2 = surface_m2;
+  const double section_m2 = surface.vector_area_m2.norm();
+  // A square section of this area has the section modulus A^(3/2) / 6.
+  const auto bending_Pa = [&](double area_m2) {
+    return 6 * wrench.moment_Nm.norm() / std::pow(area_m2, 1.5);
+  };
+  if (section_m2 < kPassesThrough * surface.area_m2) {
+    return std::max(bending_Pa(surface.area_m2) / strength.compressive_Pa,
+                    wrench.force_N.norm() / surface.area_m2 / strength.shear_Pa);
   }
+  const Vec3 normal = surface.vector_area_m2 / section_m2;
   const double tension_N = normal.dot(wrench.force_N);
   const double shear_N = (wrench.force_N - tension_N * normal).norm();
-  // A square section of this area has the section modulus A^(3/2) / 6.
-  const double bending_Pa = 6 * wrench.moment_Nm.norm() / std::pow(section_m2, 1.5);
-  return std::max({(tension_N / section_m2 + bending_Pa) / strength.tensile_Pa,
-                   (bending_Pa - tension_N / section_m2) / strength.compressive_Pa,
-                   shear_N / surface_m2 / strength.shear_Pa});
+  return std::max({(tension_N / section_m2 + bending_Pa(section_m2)) / strength.tensile_Pa,
+                   (bending_Pa(section_m2) - tension_N / section_m2) / strength.compressive_Pa,
+                   shear_N / surface.area_m2 / strength.shear_Pa});
 }
 
 BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {

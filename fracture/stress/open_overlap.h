@@ -12,9 +12,10 @@
 namespace sunder::fracture {
 
 /// Returns the utilisation of an overlap of two convexes of `compound`: stress over strength, from
-/// the wrench that the second exerts on the first about the centroid of the overlap. Tension and
-/// compression act on the cross-section of the part of the first that is inside the second; shear
-/// acts on the surface of that part. An estimate, within about a factor of two.
+/// the wrench that the second exerts on the first about the centroid of the overlap. The two
+/// separate along the surface of one inside the other: the smaller, or that of the first if their
+/// materials differ. Shear acts on this surface; tension, compression and bending on its section,
+/// or pressure on its sides if it goes all through. An estimate, within about a factor of two.
 double overlap_utilisation(const Compound& compound, const Ghost& ghost, const Wrench& wrench,
                            std::span<const Material> materials);
 

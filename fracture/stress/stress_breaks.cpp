@@ -85,11 +85,6 @@ class StressBreaks {
     for (int round = 0; round < kRounds; ++round) {
       is_known = solve(answer) && add_impact(answer);
       if (!is_known) break;
-      if (const Ghost* overlap = overloaded_overlap()) {
-        if (round > 0) break;  // Bonds that were cut are applied first.
-        opening_ = open_overlap(structure_, slots_[overlap->of[0]], slots_[overlap->of[1]]);
-        if (opening_.changed) break;
-      }
       Yielding yielding = analyse(answer);
       if (round == 0) record_impact_stress(answer);
       // Cracks come first: until then, bonds that yield bear their load.
@@ -102,7 +97,11 @@ class StressBreaks {
       if (!flow.hinges.empty()) cut = std::move(flow.cracks);
       hinges_ = std::move(flow.hinges);
       answer.settled = cut.empty() && hinges_.empty();
-      if (answer.settled) break;
+      if (answer.settled) {
+        // Overlaps open last: cracks and bonds that yield relieve them.
+        answer.settled = !open_overloaded_overlap(round);
+        break;
+      }
       record_cracks(cut);
       std::vector<std::uint32_t> gone;
       std::ranges::merge(cut, flow.bonds, std::back_inserter(gone));
@@ -278,6 +277,16 @@ class StressBreaks {
   /// Returns the utilisation above which bonds give way: of an impact load the worst go first.
   double cut_threshold(double worst) const {
     return impulses_.empty() ? 1 : std::max(1.0, kSimilarStress * worst);
+  }
+
+  /// Opens the most overloaded overlap, if there is one that can be opened; returns false if there
+  /// is none. Bonds that were cut in earlier rounds are applied first.
+  bool open_overloaded_overlap(int round) {
+    const Ghost* overlap = overloaded_overlap();
+    if (overlap == nullptr) return false;
+    if (round > 0) return true;
+    opening_ = open_overlap(structure_, slots_[overlap->of[0]], slots_[overlap->of[1]]);
+    return opening_.changed;
   }
 
   /// Returns the most overloaded overlap of two convexes under a steady load; may be null.

@@ -171,6 +171,27 @@ TEST(OpenOverlap, ABeamThroughAWallIsHeldByTheSurfaceInIt) {
   EXPECT_NEAR(volume_of(torn), volume(compound), 1e-12);
 }
 
+TEST(OpenOverlap, ABarThatEndsFlushWithItsBlockIsHeldByItsSidesAlone) {
+  // A bar of 20 mm x 20 mm through a cube of 0.2 m: its sides are 0.016 m², its ends 0.0008 m².
+  constexpr MaterialIndex kSteel(1);
+  const Compound compound =
+      make_compound({{make_box(Vec3(0, 0.16, 0.1), Vec3(0.2, 0.18, 0.12)), kSteel},
+                     {make_box(Vec3::Zero(), Vec3::Constant(0.2)), kStone}});
+  ASSERT_EQ(compound.ghosts.size(), 1u);
+  std::vector<Material> materials = weightless();
+  materials[0].shear_Pa = kStrength_Pa;
+  materials[1].yield_Pa = 2.5e8;
+  const auto utilisation = [&](const Vec3& force_N, const Vec3& moment_Nm) {
+    return overlap_utilisation(compound, compound.ghosts[0], {force_N, moment_Nm}, materials);
+  };
+  EXPECT_NEAR(utilisation(Vec3(8000, 0, 0), Vec3::Zero()), 0.5, 1e-12);
+  EXPECT_EQ(utilisation(Vec3::Zero(), Vec3(0, 0, 100)), 0);  // needs no tension
+  materials[0].compressive_Pa = 10 * kStrength_Pa;
+  const double bends = utilisation(Vec3::Zero(), Vec3(0, 0, 100));
+  EXPECT_GT(bends, 0);
+  EXPECT_LT(bends, 0.1);
+}
+
 TEST(OpenOverlap, OpeningOneOverlapAfterTheOtherKeepsVolumeAndHoldsAllTogether) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
