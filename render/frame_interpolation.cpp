@@ -14,32 +14,35 @@
 namespace sunder::render {
 namespace {
 
-constexpr float kMaxChipMotion_m = 2;  // greatest motion of a chip in a frame
+constexpr float kMaxDebrisMotion_m = 2;  // in a frame
 
+/// Returns for each body of `after` the index in `before` of the same body, or of the body it broke
+/// off. Bodies are sorted by key.
 std::vector<std::uint32_t> match_bodies(const Frame& before, const Frame& after) {
   std::vector<std::uint32_t> found(after.bodies.size(), kNoMatch);
-  const auto place_of = [&](std::uint64_t key) {
+  const auto index_of = [&](std::uint64_t key) {
     const auto it = std::ranges::lower_bound(before.bodies, key, {}, &FrameBody::key);
     const bool there = it != before.bodies.end() && it->key == key;
     return there ? static_cast<std::uint32_t>(it - before.bodies.begin()) : kNoMatch;
   };
   for (std::size_t b = 0; b < found.size(); ++b) {
-    found[b] = place_of(after.bodies[b].key);
-    if (found[b] == kNoMatch) found[b] = place_of(after.bodies[b].previous_key);
+    found[b] = index_of(after.bodies[b].key);
+    if (found[b] == kNoMatch) found[b] = index_of(after.bodies[b].previous_key);
   }
   return found;
 }
 
-/// Returns true if two chips may be the same one. A chip that shrinks is fading and at rest.
+/// Returns true if two debris particles may be the same one. A particle that shrinks is fading and
+/// at rest.
 bool may_be_same(const FrameDebris& now, const FrameDebris& then) {
   if (now.variant != then.variant || now.material != then.material) return false;
   const float motion_m = (now.position_W - then.position_W).norm();
   return now.radius_m == then.radius_m
-             ? motion_m < kMaxChipMotion_m
+             ? motion_m < kMaxDebrisMotion_m
              : now.radius_m < then.radius_m && motion_m < 0.5f * then.radius_m;
 }
 
-/// Matches debris by index, then by radius: a removal moves the last chip into the gap.
+/// Matches debris by index, then by radius: a removal moves the last particle into the gap.
 std::vector<std::uint32_t> match_debris(const std::vector<FrameDebris>& before,
                                         const std::vector<FrameDebris>& after) {
   std::vector<std::uint32_t> found(after.size(), kNoMatch);
@@ -49,15 +52,15 @@ std::vector<std::uint32_t> match_debris(const std::vector<FrameDebris>& before,
     found[i] = i;
     taken[i] = 1;
   }
-  std::unordered_multimap<float, std::uint32_t> left;  // by radius, which is almost unique
+  std::unordered_multimap<float, std::uint32_t> unmatched;  // by radius, which is almost unique
   for (std::uint32_t i = 0; i < before.size(); ++i) {
-    if (taken[i] == 0) left.emplace(before[i].radius_m, i);
+    if (taken[i] == 0) unmatched.emplace(before[i].radius_m, i);
   }
-  for (std::uint32_t i = 0; i < after.size() && !left.empty(); ++i) {
+  for (std::uint32_t i = 0; i < after.size() && !unmatched.empty(); ++i) {
     if (found[i] != kNoMatch) continue;
-    auto nearest = left.end();
-    float least_m = kMaxChipMotion_m;
-    const auto [first, last] = left.equal_range(after[i].radius_m);
+    auto nearest = unmatched.end();
+    float least_m = kMaxDebrisMotion_m;
+    const auto [first, last] = unmatched.equal_range(after[i].radius_m);
     for (auto it = first; it != last; ++it) {
       const FrameDebris& then = before[it->second];
       const float motion_m = (after[i].position_W - then.position_W).norm();
@@ -65,23 +68,26 @@ std::vector<std::uint32_t> match_debris(const std::vector<FrameDebris>& before,
       least_m = motion_m;
       nearest = it;
     }
-    if (nearest == left.end()) continue;
+    if (nearest == unmatched.end()) continue;
     found[i] = nearest->second;
-    left.erase(nearest);
+    unmatched.erase(nearest);
   }
   return found;
 }
 
-/// Returns the difference of two puffs. Puffs drift slowly; their rotations are almost unique.
+/// Returns a measure of the difference of two puffs, in m: distance, change of radius, and 4 m
+/// times 1 − cos(half the angle between them). Puffs drift slowly; their rotations are almost
+/// unique.
 float difference_of(const FrameDust& now, const FrameDust& then) {
   if (now.material != then.material) return std::numeric_limits<float>::infinity();
-  const float turned =
+  const float rotation_difference =
       1 - std::abs(now.rotation_WD.normalized().dot(then.rotation_WD.normalized()));
   return (now.position_W - then.position_W).norm() + std::abs(now.radius_m - then.radius_m) +
-         4 * turned;
+         4 * rotation_difference;
 }
 
-/// Matches dust, which keeps its order, with the most similar of the next kWindow puffs.
+/// Matches dust, which keeps its order: of the next kWindow puffs after the last match, the first
+/// that differs by at most kSameDifference, else the one that differs least.
 std::vector<std::uint32_t> match_dust(const std::vector<FrameDust>& before,
                                       const std::vector<FrameDust>& after) {
   constexpr std::size_t kWindow = 24;
@@ -112,7 +118,7 @@ Vec3 turn_between(const Quat& from, const Quat& to, const Vec3& expected_W) {
   return (angle + 2 * std::numbers::pi * std::round(missing)) * axis_W;
 }
 
-/// Returns the pose that `body` had as a part of `before`.
+/// Returns the pose that `body` had while it was part of `before`. Both share the rest frame R.
 Pose pose_before(const FrameBody& body, const FrameBody& before) {
   return {before.X_WB * Vec3(body.com_R - before.com_R), before.X_WB.rotation};
 }

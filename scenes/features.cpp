@@ -63,7 +63,7 @@ bool may_break_by_stress(const Scene& scene, const Solid& solid) {
 bool breaks_by_pattern(const Scene& scene) {
   return any_solid(scene, [&](const Solid& s) { return is_made_of(scene, s, has_pattern); });
 }
-bool breaks_by_load(const Scene& scene) {
+bool may_break_by_stress(const Scene& scene) {
   return any_solid(scene, [&](const Solid& solid) { return may_break_by_stress(scene, solid); });
 }
 bool may_break(const Scene& scene, const Solid& solid) {
@@ -74,7 +74,7 @@ bool may_break(const Scene& scene) {
 }
 
 std::string fracture_state(const Scene& scene) {
-  return on_or(breaks_by_pattern(scene), "no solid is breakable");
+  return on_or(breaks_by_pattern(scene), "no material of a solid has a fracture pattern");
 }
 void without_fracture(Scene& scene) {
   for (Material& material : scene.materials) {
@@ -88,10 +88,11 @@ std::string impact_probe_state(const Scene& scene) {
 }
 
 std::string self_weight_state(const Scene& scene) {
-  if (!breaks_by_load(scene))
+  if (!may_break_by_stress(scene))
     return "off: no breakable solid has tensile_Pa, shear_Pa or compressive_Pa above 0";
-  return on_or(!scene.gravity_W.isZero(),
-               "gravity = [0, 0, 0]; contact forces and spin still break bonds");
+  return on_or(
+      !scene.gravity_W.isZero(),
+      "gravity = [0, 0, 0], so self-weight is zero; contact forces and spin still break bonds");
 }
 void without_self_weight(Scene& scene) {
   for (Material& material : scene.materials) {
@@ -137,7 +138,9 @@ void without_debris(Scene& scene) { scene.limits.debris = 0; }
 void without_dust(Scene& scene) { scene.limits.dust = 0; }
 
 std::string ageing_state(const Scene& scene) {
-  return on_or(scene.limits.ageing > 0, "ageing = 0 in [limits], so only at the limit of bodies");
+  return on_or(
+      scene.limits.ageing > 0,
+      "ageing = 0 in [limits], so that fragments become debris only at the limit of bodies");
 }
 void without_ageing(Scene& scene) { scene.limits.ageing = 0; }
 
@@ -189,19 +192,19 @@ void without_restitution(Scene& scene) {
 
 std::string gradients_state(const Scene& scene) {
   if (scene.planar) return "off: planar = true, so Box2D solves";
-  return on_or(scene.solver.sweeps >= 4, "sweeps in [solver] are fewer than 4");
+  return on_or(scene.solver.sweeps >= 3, "sweeps in [solver] are fewer than 3");
 }
 void without_gradients(Scene& scene) { scene.solver.sweeps = 1; }
 
 std::string ghosts_state(const Scene& scene) {
   return on_or(any_solid(scene, [](const Solid& s) { return !s.compound.ghosts.empty(); }),
-               "no convexes of a solid overlap");
+               "no solid has convexes that overlap");
 }
 
 std::string visual_state(const Scene& scene) {
   const auto is_mesh = [](const Convex& convex) { return !convex.is_internal(); };
   return on_or(any_solid(scene, [&](const Solid& solid) { return any_convex(solid, is_mesh); }),
-               "no body is made from a mesh");
+               "no solid has a visual mesh");
 }
 
 std::string script_state(const Scene& scene) {

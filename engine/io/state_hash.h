@@ -1,4 +1,5 @@
-// Hash of the simulated state: equal for two runs if and only if they are the same.
+// Hash of the simulated state. Equal states have equal hashes, and different states different ones,
+// except for collisions.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +8,12 @@
 
 namespace sunder {
 
-/// Returns the XXH3 hash of the frame's bodies (key, pose, velocities, sleep, bit for bit), and of
-/// its debris and dust as recordings store them. A frame from a recording returns the hash that it
-/// was recorded with.
+/// Returns the XXH3 hash of the frame's index, of its bodies (key, pose, velocities, and whether
+/// each is static or asleep; every bit counts), and of its debris and dust, rounded as in a
+/// recording. For a frame read from a recording, returns its `recorded_hash`.
 std::uint64_t hash_state(const Frame& frame);
 
-/// Returns the hash of one body's exact state.
+/// Returns the hash of the same fields of one body.
 std::uint64_t hash_body(const FrameBody& body);
 
 }  // namespace sunder

@@ -243,9 +243,9 @@ std::string limits_warning(const LimitsHit& limits, std::uint32_t hits) {
   limits.for_each([&](const LimitText& text, std::uint32_t count) {
     if (text.by_design) return;
     list += std::string(list.empty() ? "" : "; ") + text.name + " " + std::to_string(count) +
-            (count == 1 ? " time (" : " times (") + text.counted + ": " + text.advice + ")";
+            (count == 1 ? " time (" : " times (") + text.advice + ")";
   });
-  if (!list.empty()) return "limits were reached: " + list;
+  if (!list.empty()) return "limits were reached, see docs/json.md for what each does: " + list;
   if (hits == 0) return "";
   return "limits were reached " + std::to_string(hits) + (hits == 1 ? " time" : " times") +
          "; simulate the scene again to see which";

@@ -1,6 +1,6 @@
-// Overlap of any two polygons, by strips: between the heights of all corners and crossings, both
-// are rows of trapezoids, whose middle lines give the length of their overlap. Most pairs are one
-// polygon seen from either side, which needs no sweep.
+// Area of the intersection of two polygons by a sweep over strips: between two successive heights
+// of corners and crossings each polygon is a row of trapezoids, and the area is the height times
+// the common width at mid-height. Most pairs have identical contours, which need no sweep.
 #include "fracture/adjacency/polygon_overlap.h"
 
 #include <algorithm>
@@ -117,10 +117,10 @@ class StripSweep {
   std::array<std::vector<double>, 2> places_;
 };
 
-bool are_identical(std::span<const Vec2> a, std::span<const Vec2> b, double near) {
+bool are_identical(std::span<const Vec2> a, std::span<const Vec2> b, double tolerance) {
   if (a.size() != b.size()) return false;
   const auto same = [&](const Vec2& p, const Vec2& q) {
-    return (p - q).squaredNorm() <= near * near;
+    return (p - q).squaredNorm() <= tolerance * tolerance;
   };
   std::size_t start = 0;
   while (start < b.size() && !same(a[0], b[start])) ++start;
@@ -132,19 +132,19 @@ bool are_identical(std::span<const Vec2> a, std::span<const Vec2> b, double near
   return true;
 }
 
-bool has_identical(std::span<const Vec2> contour, Contours others, double near) {
+bool has_identical(std::span<const Vec2> contour, Contours others, double tolerance) {
   return std::any_of(others.begin(), others.end(), [&](std::span<const Vec2> other) {
-    return are_identical(contour, other, near);
+    return are_identical(contour, other, tolerance);
   });
 }
 
 }  // namespace
 
-double overlap_area(Contours a, Contours b, double near) {
-  const Contours part = a.size() <= b.size() ? a : b, whole = a.size() <= b.size() ? b : a;
+double overlap_area(Contours a, Contours b, double tolerance) {
+  if (a.size() != b.size()) return StripSweep(a, b).area();
   double area = 0;
-  for (const std::span<const Vec2> contour : part) {
-    if (!has_identical(contour, whole, near)) return StripSweep(a, b).area();
+  for (const std::span<const Vec2> contour : a) {
+    if (!has_identical(contour, b, tolerance)) return StripSweep(a, b).area();
     area += polygon_area(contour);
   }
   return std::max(0.0, area);

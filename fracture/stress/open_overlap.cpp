@@ -13,38 +13,40 @@
 namespace sunder::fracture {
 namespace {
 
-/// Thickness of an overlap or part, over the width of the convex (cube root of its volume), below
-/// which it is a rounding error.
-constexpr double kThinnest = 1e-9;
-/// Share of an embedded part's surface below which its faces cancel: the part goes through the
-/// other convex, held against pull by shear and against bending by pressure.
-constexpr double kPassesThrough = 0.1;
+/// Minimum thickness of an overlap or part, as a fraction of the cube root of the convex's volume.
+/// Thinner ones are rounding errors.
+constexpr double kMinRelativeThickness = 1e-9;
+/// A part whose embedded surface has a vector area shorter than this fraction of its area passes
+/// through the other convex: shear bears tension, and pressure bears bending.
+constexpr double kMaxThroughRatio = 0.1;
 
 bool has_face(const Convex& convex, PlaneId id) {
   return std::ranges::any_of(convex.polyhedron.faces, [&](const auto& f) { return f.id == id; });
 }
 
-/// Returns true if a face lies on the surface of a convex that its polyhedron is inside.
-bool lies_on_surface(const ConvexPolyhedron& inside, std::size_t face, const Convex& of) {
-  const double tolerance_m = kThinnest * std::cbrt(of.solid.volume_m3);
-  return std::ranges::any_of(of.polyhedron.faces, [&](const auto& other) {
-    return std::ranges::all_of(inside.face_corners(face), [&](std::uint32_t v) {
-      return other.plane.distance(inside.vertices[v]) > -tolerance_m;
+/// Returns true if a face of `polyhedron` lies in a face of the convex that encloses `polyhedron`.
+bool lies_on_surface(const ConvexPolyhedron& polyhedron, std::size_t face,
+                     const Convex& enclosing) {
+  const double tolerance_m = kMinRelativeThickness * std::cbrt(enclosing.solid.volume_m3);
+  return std::ranges::any_of(enclosing.polyhedron.faces, [&](const auto& other) {
+    return std::ranges::all_of(polyhedron.face_corners(face), [&](std::uint32_t v) {
+      return other.plane.distance(polyhedron.vertices[v]) > -tolerance_m;
     });
   });
 }
 
-/// Surface of one of two convexes inside the other.
+/// The part of one convex's surface that lies inside another convex.
 struct EmbeddedSurface {
   double area_m2 = 0;
   Vec3 vector_area_m2 = Vec3::Zero();  ///< Sum of area times outward normal.
 };
 
-EmbeddedSurface embedded_surface(const Convex& overlap, const Convex& of, const Convex& in) {
+EmbeddedSurface embedded_surface(const Convex& overlap, const Convex& embedded,
+                                 const Convex& enclosing) {
   EmbeddedSurface all;
   for (std::uint32_t f = 0; f < overlap.polyhedron.faces.size(); ++f) {
-    if (!has_face(of, overlap.polyhedron.faces[f].id)) continue;
-    if (lies_on_surface(overlap.polyhedron, f, in)) continue;
+    if (!has_face(embedded, overlap.polyhedron.faces[f].id)) continue;
+    if (lies_on_surface(overlap.polyhedron, f, enclosing)) continue;
     const double area_m2 = face_area(overlap.polyhedron, f);
     all.area_m2 += area_m2;
     all.vector_area_m2 += area_m2 * overlap.polyhedron.faces[f].plane.normal;
@@ -52,8 +54,9 @@ EmbeddedSurface embedded_surface(const Convex& overlap, const Convex& of, const 
   return all;
 }
 
-/// Returns the surface along which two convexes that overlap separate, as one of the first: the
-/// smaller of the two. Of two materials, that of the first, which fills the overlap.
+/// Returns the surface along which two overlapping convexes separate, with normals out of `a`: the
+/// smaller of the two embedded surfaces, or that of `a` if the materials differ, as the material of
+/// `a` fills the overlap.
 EmbeddedSurface separating_surface(const Convex& overlap, const Convex& a, const Convex& b) {
   const EmbeddedSurface of_a = embedded_surface(overlap, a, b);
   if (a.material != b.material) return of_a;
@@ -62,11 +65,12 @@ EmbeddedSurface separating_surface(const Convex& overlap, const Convex& a, const
   return {of_b.area_m2, -of_b.vector_area_m2};
 }
 
-/// Returns the convexes that overlap a convex, ascending, and whether the overlap has volume.
+/// Returns the convexes that overlap a convex, ascending, each with true if their ghost counts in
+/// sums of volume and mass.
 std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, ConvexSlot slot) {
   std::vector<std::pair<ConvexSlot, bool>> found;
-  for (const std::uint32_t number : structure.ghost_indices(slot)) {
-    const Ghost& ghost = structure.ghost(number);
+  for (const std::uint32_t ghost_index : structure.ghost_indices(slot)) {
+    const Ghost& ghost = structure.ghost(ghost_index);
     if (ghost.of.size() != 2) continue;
     const std::uint32_t other = ghost.of[0] == slot.value ? ghost.of[1] : ghost.of[0];
     found.emplace_back(other, ghost.sign != 0);
@@ -76,11 +80,12 @@ std::vector<std::pair<ConvexSlot, bool>> partners(const Structure& structure, Co
   return found;
 }
 
-/// Returns the first convex after `slot` that overlaps it and has another material; none() if there
-/// is none. An overlap has the density of its first convex, so only its last may be cut.
-ConvexSlot denser_successor(const Structure& structure, ConvexSlot slot) {
-  for (const auto& [other, weighs] : partners(structure, slot)) {
-    if (weighs && other > slot &&
+/// Returns the first convex after `slot` that overlaps `slot` and has another material; none() if
+/// there is none. An overlap has the material of the convex in the lower slot, so that only the one
+/// in the higher slot may be cut.
+ConvexSlot next_of_other_material(const Structure& structure, ConvexSlot slot) {
+  for (const auto& [other, counts_in_mass] : partners(structure, slot)) {
+    if (counts_in_mass && other > slot &&
         structure.convex(other)->material != structure.convex(slot)->material)
       return other;
   }
@@ -90,9 +95,10 @@ ConvexSlot denser_successor(const Structure& structure, ConvexSlot slot) {
 /// Returns the convex that is cut to open an overlap.
 ConvexSlot choose_cut(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const auto volume = [&](ConvexSlot slot) { return structure.convex(slot)->solid.volume_m3; };
-  if (volume(a) < volume(b) && denser_successor(structure, a).none()) return a;
+  if (volume(a) < volume(b) && next_of_other_material(structure, a).none()) return a;
   ConvexSlot last = b;
-  for (ConvexSlot next = last; !next.none(); next = denser_successor(structure, last)) last = next;
+  for (ConvexSlot next = last; !next.none(); next = next_of_other_material(structure, last))
+    last = next;
   return last;
 }
 
@@ -109,7 +115,7 @@ double overlap_utilisation(const Compound& compound, const Ghost& ghost, const W
   const auto bending_Pa = [&](double area_m2) {
     return 6 * wrench.moment_Nm.norm() / std::pow(area_m2, 1.5);
   };
-  if (section_m2 < kPassesThrough * surface.area_m2) {
+  if (section_m2 < kMaxThroughRatio * surface.area_m2) {
     return std::max(bending_Pa(surface.area_m2) / strength.compressive_Pa,
                     wrench.force_N.norm() / surface.area_m2 / strength.shear_Pa);
   }
@@ -124,15 +130,18 @@ double overlap_utilisation(const Compound& compound, const Ghost& ghost, const W
 BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const ConvexSlot cut = choose_cut(structure, a, b);
   const Convex& old = *structure.convex(cut);
-  const double thinnest_m = kThinnest * std::cbrt(old.solid.volume_m3);
-  const ConvexSlot opened = cut == a ? b : cut == b ? a : ConvexSlot();  // none() of a third
+  const double thinnest_m = kMinRelativeThickness * std::cbrt(old.solid.volume_m3);
+  // The other convex of the overlap; none() if a third convex is cut.
+  const ConvexSlot other_of_overlap = cut == a ? b : cut == b ? a : ConvexSlot();
 
-  std::vector<ConvexSlot> around, held;  // The overlaps of `held` with surface convexes are kept.
+  // `uncounted`: convexes that stay connected to the parts by ghosts of sign 0, because one of the
+  // two is a surface convex.
+  std::vector<ConvexSlot> around, uncounted;
   std::vector<const ConvexPolyhedron*> others;
-  for (const auto& [other, weighs] : partners(structure, cut)) {
+  for (const auto& [other, counts_in_mass] : partners(structure, cut)) {
     around.push_back(other);
-    if (weighs) others.push_back(&structure.convex(other)->polyhedron);
-    if (!weighs && other != opened) held.push_back(other);
+    if (counts_in_mass) others.push_back(&structure.convex(other)->polyhedron);
+    if (!counts_in_mass && other != other_of_overlap) uncounted.push_back(other);
   }
   for (const Link& link : structure.links(cut)) around.push_back(link.other);
   std::ranges::sort(around);
@@ -142,7 +151,7 @@ BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   edit.changed = true;
   edit.removed = {cut};
   if (others.empty()) {
-    edit.added = {structure.convex(cut)};
+    edit.added = {structure.convex(cut)};  // nothing to cut off: a new slot without the ghost
   } else {
     try {
       for (ConvexPolyhedron& part : subtract(old.polyhedron, others, thinnest_m))
@@ -168,7 +177,7 @@ BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
     edit.bonds.push_back(bond);
   }
   for (std::uint32_t i = first_part; i < convexes.size(); ++i) {
-    for (const ConvexSlot slot : held) {
+    for (const ConvexSlot slot : uncounted) {
       ConvexPolyhedron common =
           overlap(convexes[i]->polyhedron, structure.convex(slot)->polyhedron, thinnest_m);
       if (common.empty()) continue;

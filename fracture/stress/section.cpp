@@ -17,24 +17,27 @@ constexpr std::size_t kMostCrossings = 4096;
 constexpr double kInOnePlane = 0.999;
 // A convex is a prism if the unit vectors of its side edges add up to this share of their number.
 constexpr double kPrism = 0.999;
-constexpr double kCos60 = 0.5, kCos30 = 0.866, kCosParallel = 1 - 1e-9;  // Cosines.
-// Least projected area over the sum of areas: the area of bonds that fold back is zero.
-constexpr double kLeastArea = 1e-6;
+constexpr double kCos60 = 0.5, kCos30 = 0.866, kCosParallel = 1 - 1e-9;
+// Minimum of projected area over the sum of areas. Below it the bonds fold back on themselves and
+// form no section.
+constexpr double kMinProjectedShare = 1e-6;
 constexpr int kHalvings = 80;
 
-/// A part of a section as a uniform load along one direction of the section.
+/// Yield force of one bond, spread evenly over an interval of a direction in the section.
 struct Strip {
-  double force_N, at_m, half_m;
+  double force_N, center_m, half_width_m;
 
   /// Returns the share of the strip below a position.
   double below(double m) const {
-    if (!(half_m > 0)) return at_m < m ? 1 : 0;
-    return std::clamp((m - at_m + half_m) / (2 * half_m), 0.0, 1.0);
+    if (!(half_width_m > 0)) return center_m < m ? 1 : 0;
+    return std::clamp((m - center_m + half_width_m) / (2 * half_width_m), 0.0, 1.0);
   }
   /// Returns the mean distance of the strip's points from a position.
   double distance(double m) const {
-    const double middle = std::abs(at_m - m);
-    return middle >= half_m ? middle : (middle * middle + half_m * half_m) / (2 * half_m);
+    const double middle = std::abs(center_m - m);
+    return middle >= half_width_m
+               ? middle
+               : (middle * middle + half_width_m * half_width_m) / (2 * half_width_m);
   }
 };
 
@@ -43,8 +46,8 @@ struct Strip {
 double bending_Nm(std::span<const Strip> strips) {
   double low = 1e300, high = -1e300, force = 0;
   for (const Strip& strip : strips) {
-    low = std::min(low, strip.at_m - strip.half_m);
-    high = std::max(high, strip.at_m + strip.half_m);
+    low = std::min(low, strip.center_m - strip.half_width_m);
+    high = std::max(high, strip.center_m + strip.half_width_m);
     force += strip.force_N;
   }
   for (int i = 0; i < kHalvings; ++i) {
@@ -58,7 +61,8 @@ double bending_Nm(std::span<const Strip> strips) {
   return moment;
 }
 
-/// Returns the axis of a convex that is a prism over one of its faces; none if it is no prism.
+/// Returns the unit axis, away from `face`, of a convex that is a prism on that face; none if it is
+/// no prism.
 std::optional<Vec3> prism_axis(const ConvexPolyhedron& convex, std::uint32_t face) {
   const auto end = convex.face_corners(face);
   const auto in_face = [&](std::uint32_t v) { return std::ranges::find(end, v) != end.end(); };
@@ -270,7 +274,7 @@ Section Sections::make_section(std::vector<Crossing> crossings, const Vec3& norm
     section.centroid_R += areas_m2.back() * g.centroid_R;
     all_m2 += g.area_m2;
   }
-  if (!(section.area_m2 > kLeastArea * all_m2)) return {};
+  if (!(section.area_m2 > kMinProjectedShare * all_m2)) return {};
   section.centroid_R /= section.area_m2;
   Wrench& wrench = section.wrench_R;
   for (const Crossing& crossing : crossings) {

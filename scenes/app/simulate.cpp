@@ -1,4 +1,4 @@
-// sunder simulate: runs a scene without pictures, and reports its figures and state hash.
+// sunder simulate: runs a scene without rendering, and prints its statistics and state hash.
 #include <cstdio>
 #include <optional>
 
@@ -29,16 +29,16 @@ int simulate(const SimulateOptions& options) {
   const auto simulation = make_simulation(std::move(scene));
   FramesUntil frames(*simulation, last);
   std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
-  std::optional<RecordingReader> known;
+  std::optional<RecordingReader> recording;
   std::optional<RecordingVerifier> verifier;
   if (!options.verify.empty()) {
-    known.emplace(options.verify);
-    sinks.push_back(&verifier.emplace(*known));
+    recording.emplace(options.verify);
+    sinks.push_back(&verifier.emplace(*recording));
   }
   std::optional<RecordingWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
   if (!options.trace.empty()) start_trace();
-  const int stopped = pump_until_stopped(frames, sinks);
+  const int exit_code = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
     write_text(options.trace, format_trace(stop_trace()));
     options.print("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
@@ -46,16 +46,16 @@ int simulate(const SimulateOptions& options) {
   if (const std::string warning = statistics.limits_warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   options.print(statistics.table() + "state hash " + hash.hex() + "\n");
-  options.write_json(statistics.json(hash.hex(), true));
+  options.write_json(statistics.json(hash.hex(), /*per_frame=*/true));
   if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
-  if (stopped != 0 || !verifier) return stopped;
-  const std::string same = std::to_string(verifier->same()) + " frames match the recording\n";
+  if (exit_code != 0 || !verifier) return exit_code;
+  const std::string same = std::to_string(verifier->same());
   if (verifier->difference().empty()) {
-    options.print(same);
+    options.print(same + " frames match the recording\n");
     return 0;
   }
-  std::fprintf(stderr, "failed: differs from %s at %s; before, %s", options.verify.c_str(),
-               verifier->difference().c_str(), same.c_str());
+  std::fprintf(stderr, "failed: the run differs from %s after %s equal frames: %s\n",
+               options.verify.c_str(), same.c_str(), verifier->difference().c_str());
   return 1;
 }
 

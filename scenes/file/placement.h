@@ -12,6 +12,7 @@
 
 namespace sunder::scenes {
 
+/// Axis along which copies are mirrored; kXZ: along x, then all of them along z.
 enum class Mirror { kNone, kX, kY, kZ, kXZ };
 
 /// The keys of a placement.
@@ -25,15 +26,15 @@ const Keys<PlacementTable>& placement_keys();
 
 /// The keys of `repeat`.
 struct RepeatTable {
-  std::uint32_t count = 0;
+  std::uint32_t count = 0;  ///< Copies, with the first one.
   Vec3 step_m = Vec3::Zero();
-  double turn_rad = 0;
+  double turn_rad = 0;  ///< From each copy to the next, about the vertical axis through center_m.
   Vec3 center_m = Vec3::Zero();
 };
 const Keys<RepeatTable>& repeat_keys();
 
-/// One copy of a model: the model's frame M, in which it is first mirrored at x = 0 if `mirrored`,
-/// is placed in the frame F of the scene or compound by X_FM.
+/// One copy of a model. If `mirrored`, the model is reflected at x = 0 in its frame M; then X_FM
+/// places M in the frame F of the scene or compound.
 struct Copy {
   Pose X_FM;
   bool mirrored = false;

@@ -87,7 +87,7 @@ PressureSolver::PressureSolver(const Vec3i& counts) {
     if (size.x() % (2 * kSumLanes) != 0 || size.y() % 2 != 0 || size.z() % 2 != 0) break;
   }
   SUNDER_CHECK(!levels_.empty());
-  for (Field* field : {&pressure_, &direction_, &image_}) {
+  for (Field* field : {&pressure_, &direction_, &matrix_direction_}) {
     field->assign(levels_[0].lattice.size(), 0);
   }
   partial_.resize(static_cast<std::size_t>(counts.z()));
@@ -127,9 +127,9 @@ void PressureSolver::coarsen(const Level& fine, Level& coarse) {
 }
 
 /// Smooths rows of one colour of the checkerboard (j + k): Gauss-Seidel, Jacobi along a row.
-void PressureSolver::smooth_colour(Level& level, int colour) {
+void PressureSolver::smooth_rows(Level& level, int color) {
   for_rows(level.lattice, [&](int j, int k) {
-    if (((j + k) & 1) != colour) return;
+    if (((j + k) & 1) != color) return;
     const std::size_t at = level.lattice.index(1, j, k);
     const Row row = row_of(level.lattice, level.a, at);
     const float* residual = &level.residual[at];
@@ -166,8 +166,8 @@ void PressureSolver::smooth_from_zero(Level& level) {
 
 /// One smoothing sweep; backward is the transpose of forward, which keeps the V-cycle symmetric.
 void PressureSolver::smooth(Level& level, Order order) {
-  smooth_colour(level, order == Order::kForward ? 0 : 1);
-  smooth_colour(level, order == Order::kForward ? 1 : 0);
+  smooth_rows(level, order == Order::kForward ? 0 : 1);
+  smooth_rows(level, order == Order::kForward ? 1 : 0);
 }
 
 /// Restricts the residual: each coarse cell gets the sum over its eight fine cells.
@@ -217,14 +217,14 @@ void PressureSolver::cycle(std::size_t at) {
   for (int i = 0; i < sweeps; ++i) smooth(level, Order::kBackward);
 }
 
-/// Computes image_ = matrix · direction_; returns direction_ · image_.
+/// Computes matrix_direction_ = matrix · direction_; returns their dot product.
 double PressureSolver::apply_and_dot() {
   const Lattice& lattice = levels_[0].lattice;
   const int count = lattice.counts.x();
   return sum_rows(lattice, partial_, [&](std::size_t at) {
     const Row row = row_of(lattice, levels_[0].a, at);
     const float* x = &direction_[at];
-    float* image = &image_[at];
+    float* image = &matrix_direction_[at];
     for (int i = 0; i < count; ++i) image[i] = row.diagonal(i) * x[i] - row.neighbours(x, i);
     return dot_row(x, image, count);
   });
@@ -259,7 +259,7 @@ float PressureSolver::step(float alpha) {
     float* p = &pressure_[at];
     float* residual = &levels_[0].residual[at];
     const float* direction = &direction_[at];
-    const float* image = &image_[at];
+    const float* image = &matrix_direction_[at];
     for (int i = 0; i < count; ++i) {
       p[i] += alpha * direction[i];
       residual[i] -= alpha * image[i];
@@ -270,10 +270,9 @@ float PressureSolver::step(float alpha) {
   return static_cast<float>(*std::max_element(partial_.begin(), partial_.end()));
 }
 
-/// Minimizes along direction_; `slope` is direction_ · residual. Returns max |residual|.
-float PressureSolver::line_search(double slope) {
+float PressureSolver::minimize_along_direction(double direction_dot_residual) {
   const double curvature = apply_and_dot();
-  return step(curvature > 0 ? static_cast<float>(slope / curvature) : 0);
+  return step(curvature > 0 ? static_cast<float>(direction_dot_residual / curvature) : 0);
 }
 
 int PressureSolver::solve(float tolerance) {
@@ -285,7 +284,7 @@ int PressureSolver::solve(float tolerance) {
   // Warm start: the pressure of the last solve is the first search direction.
   std::swap(direction_, pressure_);
   std::fill(pressure_.begin(), pressure_.end(), 0.0f);
-  float largest = line_search(dot(levels_[0].residual, direction_));
+  float largest = minimize_along_direction(dot(levels_[0].residual, direction_));
   double before = 0;
   int iterations = 0;
   for (; largest > tolerance && iterations < kMaxPressureIterations; ++iterations) {
@@ -293,7 +292,7 @@ int PressureSolver::solve(float tolerance) {
     const double now = dot(levels_[0].residual, levels_[0].correction);
     update_direction(before > 0 ? static_cast<float>(now / before) : 0);
     before = now;
-    largest = line_search(now);
+    largest = minimize_along_direction(now);
   }
   return iterations;
 }

@@ -9,7 +9,8 @@
 
 namespace sunder::solver {
 
-/// Solves Σ_f a_f (p_cell − p_neighbour) = −divergence, with p = 0 outside the lattice.
+/// Solves Σ_f a_f (p_cell − p_neighbour) = −divergence over the faces f of each cell, with p = 0 on
+/// the faces of the boundary. p is the pressure times dt / (density · cell size).
 class PressureSolver {
  public:
   /// Makes a solver for `counts` cells per axis: at least 4; along x a multiple of 8, at most 128.
@@ -17,13 +18,15 @@ class PressureSolver {
   explicit PressureSolver(const Vec3i& counts);
 
   /// Returns the coefficients of the faces of each axis, to be set before solve(): the open
-  /// fraction; twice that on the boundary, where p = 0 lies on the face; 0 where it is closed.
+  /// fraction; twice that on the boundary, which is half a cell away; 0 where it is closed.
   std::array<Field, 3>& coefficients() { return levels_[0].a; }
-  /// Returns the net inflow (−outflow) of each cell, to be set before solve(); overwritten by it.
+  /// Returns the right-hand side, to be set before solve(), which overwrites it: the net inflow of
+  /// each cell.
   Field& inflow() { return levels_[0].residual; }
   /// Returns the pressure of the last solve, from which the next one starts.
   Field& pressure() { return pressure_; }
-  /// Solves until no net outflow exceeds the tolerance; returns the number of iterations, up to 16.
+  /// Solves until the net outflow of each cell is within the tolerance; returns the number of
+  /// iterations, up to 16.
   int solve(float tolerance);
 
  private:
@@ -32,8 +35,8 @@ class PressureSolver {
     Lattice lattice;
     std::array<Field, 3> a;
     Field inverse_diagonal;
-    Field residual;    ///< Right-hand side.
-    Field correction;  ///< Solution.
+    Field residual;    ///< Right-hand side: the residual of the next finer grid.
+    Field correction;  ///< Approximate solution.
   };
   static constexpr int kLongestRow = 128;
   enum class Order { kForward, kBackward };
@@ -42,18 +45,20 @@ class PressureSolver {
   static void coarsen(const Level& fine, Level& coarse);
   static void smooth_from_zero(Level& level);
   static void smooth(Level& level, Order order);
-  static void smooth_colour(Level& level, int colour);
+  /// Red-black Gauss-Seidel between rows, Jacobi along a row.
+  static void smooth_rows(Level& level, int color);
   static void restrict_residual(const Level& fine, Level& coarse);
   static void prolong(const Level& coarse, Level& fine);
   void cycle(std::size_t level);
   double apply_and_dot();
   double dot(const Field& x, const Field& y);
-  float line_search(double slope);
+  /// Moves the pressure along the search direction by the exact step; returns the largest residual.
+  float minimize_along_direction(double direction_dot_residual);
   void update_direction(float beta);
   float step(float alpha);
 
   std::vector<Level> levels_;
-  Field pressure_, direction_, image_;
+  Field pressure_, direction_, matrix_direction_;
   std::vector<double> partial_;  ///< Partial result of each layer of cells.
 };
 

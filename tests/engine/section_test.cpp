@@ -1,4 +1,5 @@
-// Tests of the strength of a yielding section against closed forms.
+// Tests of the plastic strength of a section against closed forms, and of a material's stress
+// limits.
 #include "engine/model/section.h"
 
 #include <cmath>
@@ -10,7 +11,8 @@
 namespace sunder {
 namespace {
 
-/// Returns the strength of a rectangle b wide and h high, normal to x, of yield stress 1 Pa.
+/// Returns the strength of a rectangle of width b (along z) and height h (along y), normal to x, of
+/// yield stress 1 Pa. Its strength in torsion is arbitrary.
 SectionStrength rectangle(double b, double h) {
   return {Mat3::Identity(), b * h, b * h / std::sqrt(3),
           Vec3(0.2 * b * b * h, b * b * h / 4, b * h * h / 4)};
@@ -30,7 +32,7 @@ TEST(Section, EachForceOrMomentAloneGivesItsRatioToTheStrength) {
 }
 
 TEST(Section, ARectangleUnderMomentAndAxialForceYieldsAsInTheory) {
-  // A band of height n·h in the middle bears the axial force, and the rest bears the moment.
+  // A band of height |n|·h in the middle bears the axial force, and the rest bears the moment.
   const double b = 0.2, h = 0.3;
   for (const double n : {-0.8, -0.3, 0.1, 0.5, 0.95}) {
     const double moment = b * h * h / 4 * (1 - n * n);
@@ -50,7 +52,7 @@ TEST(Section, UtilisationDoesNotDependOnOrientation) {
   EXPECT_NEAR(utilisation(s, {turn * wrench.force_N, turn * wrench.moment_Nm}), before, 1e-12);
 }
 
-TEST(Material, TheYieldStressIsTheLowestStressLimit) {
+TEST(Material, AYieldStressCountsAsAStressLimit) {
   Material material;
   EXPECT_FALSE(material.breaks_by_load());
   material.yield_Pa = 2e8;

@@ -138,6 +138,14 @@ TEST(Polygon, overlap_of_equal_polygons_up_to_rounding_is_the_whole) {
   EXPECT_NEAR(overlap_area(a, b, 1e-4), 0.999, 1e-12);
 }
 
+TEST(Polygon, overlap_of_a_polygon_and_itself_with_a_hole_lacks_the_hole) {
+  const std::vector<Vec2> square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const std::vector<Vec2> hole{{1, 1}, {1, 3}, {3, 3}, {3, 1}};
+  const std::span<const Vec2> filled[] = {square}, open[] = {square, hole};
+  EXPECT_NEAR(overlap_area(filled, open, 1e-9), 12, 1e-12);
+  EXPECT_NEAR(overlap_area(open, filled, 1e-9), 12, 1e-12);
+}
+
 TEST(Polygon, distance_to_a_box_is_that_of_its_nearest_point) {
   const ConvexPolyhedron box = make_box(Vec3(0, 0, 0), Vec3(1, 2, 3));
   Random random(4);

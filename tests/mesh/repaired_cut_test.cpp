@@ -13,7 +13,7 @@
 namespace sunder {
 namespace {
 
-double half_volume(const PolygonMesh& mesh, const Plane& plane, PlaneId id) {
+double volume_inside(const PolygonMesh& mesh, const Plane& plane, PlaneId id) {
   PolygonMesh half;
   MeshClipScratch scratch;
   switch (clip(mesh, plane, id, 0, half, scratch)) {
@@ -34,18 +34,20 @@ void expect_cuts_add_up(const std::vector<PolygonMesh>& shells, const std::strin
     const Box box = bounds(shell);
     const double whole = mass_properties(shell).volume_m3;
     for (int i = 0; i < 3; ++i) {
-      const Vec3 away(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
-                      random.uniform(-0.3, 0.3));
+      const Vec3 offset(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
+                        random.uniform(-0.3, 0.3));
       const Vec3 direction = i == 0 ? Vec3(Vec3::UnitY()) : random.direction();
-      const Plane plane = Plane::through(box.center() + box.extent().cwiseProduct(away), direction);
-      const double sum = half_volume(shell, plane, {2}) + half_volume(shell, plane.flipped(), {3});
+      const Plane plane =
+          Plane::through(box.center() + box.extent().cwiseProduct(offset), direction);
+      const double sum =
+          volume_inside(shell, plane, {2}) + volume_inside(shell, plane.flipped(), {3});
       // The tolerance is relative to the box where the volume is a small difference of large parts.
       EXPECT_NEAR(sum, whole, 1e-12 * std::max(whole, box.extent().prod())) << name;
     }
   }
 }
 
-TEST(RealMeshes, CanBeCutOnceRepaired) {
+TEST(RepairedMeshes, AreCutIntoHalvesThatAddUp) {
   for (const std::string set : {"good", "nasty"}) {
     for (const auto& file : test::meshes(set)) {
       const std::string name = file.filename().string();

@@ -105,7 +105,7 @@ TEST(Vacd, OfRealMeshesKeepsItsInvariants) {
         continue;
       }
       const Vacd vacd = decompose(mesh);
-      // A mesh that is inside out in places gets a new surface before it is decomposed.
+      // Parts that are inside out are dropped; the scene loader gives such meshes a new surface.
       if (vacd.figures.inside_out_m3 > 1e-3 * vacd.figures.mesh_volume_m3) continue;
       EXPECT_EQ(find_violation(vacd.compound, mesh), "") << name;
       if (vacd.figures.max_faces_per_convex > 3000) continue;  // Would take too long.

@@ -131,7 +131,7 @@ TEST(Splitting, KeepsTheSpringBetweenBodies) {
   for (const float parts : {1.f, 2.f, 7.f}) {
     const Spring<Wide> spring = whole.split(splat<Wide>(parts));
     EXPECT_NEAR(spring.mass_scale[0] + spring.impulse_scale[0], 1, 1e-6);
-    // Each part is lighter by the factor `parts`; the spring's share of the impulse grows by it.
+    // The compliance between the bodies stays equal: impulse_scale / mass_scale grows by `parts`.
     EXPECT_NEAR(parts * spring.mass_scale[0] / spring.impulse_scale[0], 4, 1e-5);
   }
 }

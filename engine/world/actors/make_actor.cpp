@@ -10,7 +10,7 @@
 namespace sunder {
 namespace {
 
-/// Returns true if load may break an actor.
+/// Returns true if stress in its bonds may break an actor.
 bool breaks_by_load(const World& world, const Actor& actor) {
   if (actor.structure.size() < 2) return false;
   return std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
@@ -18,8 +18,8 @@ bool breaks_by_load(const World& world, const Actor& actor) {
   });
 }
 
-/// Returns true if contact forces and impacts on an actor are evaluated by stress: of small pieces
-/// of brittle materials only the spin is.
+/// Returns true if contact forces and impacts load the bonds of an actor. Small fragments of
+/// brittle materials are checked for stress by spin only.
 bool reports_contact_loads(const World& world, const Actor& actor) {
   if (!actor.stress.breakable) return false;
   const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
@@ -29,7 +29,8 @@ bool reports_contact_loads(const World& world, const Actor& actor) {
          });
 }
 
-/// Returns the value of StressState::burst_omega2_s2.
+/// Returns the squared angular speed at which ρω²r² at the farthest point equals the lowest stress
+/// limit.
 double burst_omega2_s2_of(const World& world, const Actor& actor) {
   double min_stress_limit_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0,
          reach_m = 0;
@@ -47,7 +48,7 @@ double burst_omega2_s2_of(const World& world, const Actor& actor) {
 }
 
 /// Returns true if impacts do not break a material by stress, as the actor has too many bonds.
-bool is_past_impact_bonds(const World& world, const Actor& actor, const Material& material) {
+bool exceeds_impact_bonds(const World& world, const Actor& actor, const Material& material) {
   return material.breakable() && actor.structure.bond_count() > world.scene.limits.impact_bonds;
 }
 
@@ -60,14 +61,14 @@ std::vector<MaterialIndex> materials_of(const Compound& compound) {
   return all;
 }
 
-// Least area of a crack through a solid of volume V, relative to V^(2/3).
+// Minimum area of a crack through a solid of volume V, as a fraction of V^(2/3).
 constexpr double kMinCrackShare = 0.1;
 
 // Most convexes that are checked for a plate; a structure with more is assumed to have one.
 constexpr std::size_t kMaxThinChecks = 8;
 
-/// Returns true if one of a structure's convexes is a plate, or is assumed to be.
-bool has_thin(const Structure& structure) {
+/// Returns true if one of a structure's convexes is a plate or shell, or is assumed to be.
+bool has_thin_convex(const Structure& structure) {
   bool found = structure.size() > kMaxThinChecks;
   if (!found)
     structure.for_each([&](ConvexSlot, const Convex& convex) { found = found || is_thin(convex); });
@@ -87,7 +88,7 @@ void set_least(const World& world, Actor& actor) {
   actor.stress.least_J = std::numeric_limits<double>::infinity();
   actor.stress.least_Ns = 0;
   if (actor.is_kinematic) return;
-  const bool may_bend = has_thin(actor.structure);
+  const bool may_bend = has_thin_convex(actor.structure);
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     if (!material.breakable() || actor.volume_m3 < material.min_breakable_volume_m3()) continue;
@@ -106,9 +107,9 @@ void set_least(const World& world, Actor& actor) {
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
     if (!material.breaks_by_load()) continue;
-    if (is_past_impact_bonds(world, actor, material)) continue;
-    // A block with stress σ at its corner by tension and bending about both axes has the energy σ²V
-    // / 14 E.
+    if (exceeds_impact_bonds(world, actor, material)) continue;
+    // The least strain energy of a block with stress σ at a corner is σ²V / (14 E): the stress is
+    // shared between tension and bending about both axes.
     const double limit_Pa = material.min_stress_limit_Pa();
     actor.stress.least_J =
         std::min(actor.stress.least_J, limit_Pa * limit_Pa / (14 * material.youngs_Pa) * convex_m3);
@@ -122,7 +123,7 @@ void count_limits(World& world, const Actor& actor) {
     ++limits[Limit::kLoadedConvexes];
   } else if (std::ranges::any_of(actor.materials, [&](MaterialIndex index) {
                const Material& material = world.material(index);
-               return material.breaks_by_load() && is_past_impact_bonds(world, actor, material);
+               return material.breaks_by_load() && exceeds_impact_bonds(world, actor, material);
              })) {
     ++limits[Limit::kImpactBonds];
   }

@@ -12,8 +12,8 @@
 namespace sunder::solver {
 
 inline constexpr std::uint8_t kNoColor = 0xff;
-inline constexpr std::uint8_t kMaxColors = 64;  ///< As a colour: no colour was free.
-/// Number of sweep keys of manifolds.
+inline constexpr std::uint8_t kMaxColors = 64;  ///< As a colour of a manifold: none was free.
+/// Number of values of Manifold::sweep_key().
 inline constexpr std::size_t kSweepKeys = (kMaxColors + 1) * 4;
 
 inline std::uint64_t pair_key(ShapeSlot shape_a, ShapeSlot shape_b) {
@@ -25,9 +25,9 @@ inline std::uint64_t pair_key(ShapeSlot shape_a, ShapeSlot shape_b) {
 struct Pair {
   ShapeSlot shape_a, shape_b;  ///< None: a free slot.
   BodySlot body_a, body_b;
-  ManifoldSlot manifold;   ///< None: the shapes do not touch.
+  ManifoldSlot manifold;   ///< None: no contact, not even a speculative one.
   float clearance_m = -1;  ///< Lower bound on the distance at the last test.
-  float margin_m = 0;      ///< Distance within which they have a contact, besides their motion.
+  float margin_m = 0;      ///< Distance within which they have a contact, plus their motion.
   double turned_m = 0;     ///< Sum of Bodies::turned_m of both at the last test.
   Vec3f offset_W = Vec3f::Zero();  ///< Centre of b minus centre of a at the last test.
   Vec3f axis_A = Vec3f::Zero();    ///< Last separating axis, in A; zero if none.
@@ -44,7 +44,7 @@ struct ManifoldPoint {
   Vec3f arm_A = Vec3f::Zero(), arm_B = Vec3f::Zero();
   float separation_m = 0;
   float impulse_Ns = 0;  ///< Normal impulse of the last substep.
-  float rest_m = 0;      ///< Separation at rest without load: see static_warm_start.h.
+  float rest_m = 0;      ///< Separation at which the contact has no force: see static_warm_start.h.
   std::uint32_t feature = 0;
 };
 
@@ -63,11 +63,11 @@ struct Manifold {
   bool cold = false;  ///< Belongs to a new body: gets a static warm start in the next solve.
   float friction = 0;
   float restitution = 0;
-  /// Compliance over that without load; below 1 if the contact is stiffened.
+  /// Factor on the compliance; below 1 while a large load stiffens the contact.
   float compliance_scale = 1;
-  float size_m = 0;                 ///< Inner radius of the smaller shape: the unit of tolerances.
-  Vec3f normal_W = Vec3f::UnitY();  ///< Unit normal from a to b.
-  Vec3f normal_body = Vec3f::UnitY();
+  float size_m = 0;                      ///< Lesser inner radius; tolerances are fractions of it.
+  Vec3f normal_W = Vec3f::UnitY();       ///< Unit normal from a to b.
+  Vec3f normal_body = Vec3f::UnitY();    ///< In B if normal_on_b, else in A.
   Vec3f built_position = Vec3f::Zero();  ///< Position of B in A when the points were built.
   Quatf built_rotation = Quatf::Identity();
   Vec3f friction_anchor_A = Vec3f::Zero(), friction_anchor_B = Vec3f::Zero();
@@ -79,7 +79,7 @@ struct Manifold {
   float rolling_m = 0;  ///< Lever arm of rolling resistance.
   Vec3f roll_impulse_W = Vec3f::Zero();
   Vec3f step_impulse_W = Vec3f::Zero();  ///< Impulse on b over the last step.
-  /// Moving average of the force on b, N, over about a quarter of the time of rest.
+  /// Moving average of the force on b, N, over about a quarter of the time at rest before sleep.
   Vec3f mean_force_W = Vec3f::Zero();
   Vec3f rest_force_W = Vec3f::Zero();  ///< Force on b, N, when a or b last fell asleep.
   std::array<ManifoldPoint, 4> points;
