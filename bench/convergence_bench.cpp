@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/flags.h"
 #include "bench/piles.h"
 #include "solver/rigid/rigid_physics.h"
+#include "tests/fixtures/flags.h"
 
 namespace sunder::solver {
 namespace {
@@ -127,7 +127,7 @@ void measure(const char* name, Pile set, double time_s, double friction, bool cs
 
 int main(int argc, char** argv) {
   bool csv = false;
-  if (!sunder::bench::read_flags(argc, argv, {{"--csv", &csv}})) {
+  if (!sunder::read_flags(argc, argv, {{"--csv", &csv}})) {
     std::fprintf(stderr, "usage: %s [--csv]\n", argv[0]);
     return 2;
   }

@@ -12,7 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "bench/flags.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
 #include "engine/model/frame.h"
@@ -22,6 +21,7 @@
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/contact/kernels/constraint_block.h"
+#include "tests/fixtures/flags.h"
 
 namespace sunder::bench {
 namespace {

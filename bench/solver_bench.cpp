@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "bench/flags.h"
 #include "bench/piles.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "solver/rigid/rigid_physics.h"
+#include "tests/fixtures/flags.h"
 
 namespace sunder::solver {
 namespace {
@@ -174,17 +174,17 @@ void run_all(const Options& options) {
 }
 
 bool parse(int argc, char** argv, Options& options) {
-  return bench::read_flags(argc, argv,
-                           {{"--scene", &options.scene},
-                            {"--threads", &options.threads},
-                            {"--substeps", &options.substeps},
-                            {"--sweeps", &options.sweeps},
-                            {"--colors", &options.colors},
-                            {"--lanes", &options.lanes},
-                            {"--frames", &options.frames},
-                            {"--seed", &options.seed},
-                            {"--rate", &options.rate_Hz},
-                            {"--sleep", &options.sleep}}) &&
+  return read_flags(argc, argv,
+                    {{"--scene", &options.scene},
+                     {"--threads", &options.threads},
+                     {"--substeps", &options.substeps},
+                     {"--sweeps", &options.sweeps},
+                     {"--colors", &options.colors},
+                     {"--lanes", &options.lanes},
+                     {"--frames", &options.frames},
+                     {"--seed", &options.seed},
+                     {"--rate", &options.rate_Hz},
+                     {"--sleep", &options.sleep}}) &&
          options.threads > 0 && options.substeps > 0 && options.sweeps > 0 && options.colors >= 0 &&
          options.colors <= 64 && options.lanes >= 0 && options.rate_Hz >= 60;
 }

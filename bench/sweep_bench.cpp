@@ -19,13 +19,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/flags.h"
 #include "bench/piles.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/contact/kernels/constraint_block.h"
 #include "solver/rigid/rigid_physics.h"
+#include "tests/fixtures/flags.h"
 
 namespace sunder::solver {
 namespace {
@@ -243,8 +243,8 @@ int main(int argc, char** argv) {
   std::string list;
   int colors = 64;
   bool grows = false;
-  if (!sunder::bench::read_flags(
-          argc, argv, {{"--sides", &list}, {"--colors", &colors}, {"--growth", &grows}})) {
+  if (!sunder::read_flags(argc, argv,
+                          {{"--sides", &list}, {"--colors", &colors}, {"--growth", &grows}})) {
     std::fprintf(stderr, "usage: %s [--sides A,B,...] [--colors 0..64] [--growth]\n", argv[0]);
     return 2;
   }

@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <string>
 
-#include "bench/triangles.h"
 #include "engine/base/trace.h"
 #include "engine/geometry/prism.h"
 #include "engine/geometry/repair/repair.h"
 #include "engine/io/mesh/mesh_reader.h"
+#include "tests/fixtures/triangles.h"
 
 namespace sunder::bench {
 namespace {

@@ -7,12 +7,12 @@
 #include <cstring>
 #include <string>
 
-#include "bench/flags.h"
 #include "bench/peers/peer.h"
 #include "bench/peers/penetration.h"
 #include "bench/piles.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/flags.h"
 
 namespace sunder::bench {
 namespace {

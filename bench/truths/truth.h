@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/truths/presets.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::truths {
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/geometry/hull.h"
 #include "solver/rigid/collide/patch.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::rubble_test {
 namespace {
