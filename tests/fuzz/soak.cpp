@@ -167,14 +167,14 @@ int soak(const Options& options) {
 int main(int argc, char** argv) {
   sunder::fuzz::Options options;
   if (!sunder::read_flags(argc, argv,
-                          {{"--time", &options.time_s},
-                           {"--scenes", &options.scenes},
-                           {"--seed", &options.seed},
-                           {"--out", &options.out}}) ||
-      (options.time_s > 0) == (options.scenes > 0)) {
-    std::fprintf(stderr, "usage: %s --time S | --scenes N [--seed FIRST] [--out FOLDER]\n",
-                 argv[0]);
-    return 2;
+                          {{"--time", &options.time_s, "S"},
+                           {"--scenes", &options.scenes, "N"},
+                           {"--seed", &options.seed, "FIRST"},
+                           {"--out", &options.out, "FOLDER"}}))
+    return sunder::kUsageError;
+  if ((options.time_s > 0) == (options.scenes > 0)) {
+    std::fprintf(stderr, "give either --time or --scenes\n");
+    return sunder::kUsageError;
   }
   return sunder::fuzz::soak(options);
 }

@@ -1,12 +1,14 @@
 // Faces, ill-shaped triangles and time of repeated cuts of a prism and a torus with polygonal and
-// with triangulated faces, as in the paper's figure 9. Prints a table.
+// with triangulated faces, as in the paper's figure 9: paper_bench cuts.
 #include <cstdio>
 #include <string>
 
+#include "bench/paper/paper_bench.h"
 #include "engine/base/trace.h"
 #include "engine/geometry/prism.h"
 #include "engine/geometry/repair/repair.h"
 #include "engine/io/mesh/mesh_reader.h"
+#include "tests/fixtures/flags.h"
 #include "tests/fixtures/triangles.h"
 
 namespace sunder::bench {
@@ -36,13 +38,15 @@ void print_table(const std::string& name, const PolygonMesh& mesh) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
 
-int main() {
-  using namespace sunder;
+int measure_cuts(int argc, char** argv) {
+  if (!read_flags(argc, argv, {})) return kUsageError;
   const std::vector<Vec2> hexagon = {{0, 1},  {0.866, 0.5},   {0.866, -0.5},
                                      {0, -1}, {-0.866, -0.5}, {-0.866, 0.5}};
-  bench::print_table("a hexagonal prism", polygon_mesh(make_prism(hexagon, 0, 1, false)));
+  print_table("a hexagonal prism", polygon_mesh(make_prism(hexagon, 0, 1, false)));
   const std::string torus = SUNDER_ROOT "/scenes/meshes/torus.obj";
-  bench::print_table("scenes/meshes/torus.obj", repair_mesh(read_mesh(torus), torus).shells[0]);
+  print_table("scenes/meshes/torus.obj", repair_mesh(read_mesh(torus), torus).shells[0]);
+  return 0;
 }
+
+}  // namespace sunder::bench

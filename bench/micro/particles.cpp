@@ -148,10 +148,10 @@ void nothing(benchmark::State& state) {
 void configure(benchmark::internal::Benchmark* bench) {
   bench->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 }
-BENCHMARK(debris_awake)->Apply(configure);
-BENCHMARK(debris_asleep)->Apply(configure);
-BENCHMARK(dust)->Apply(configure);
-BENCHMARK(nothing)->Apply(configure);
+BENCHMARK(debris_awake)->Name("particles/debris_awake")->Apply(configure);
+BENCHMARK(debris_asleep)->Name("particles/debris_asleep")->Apply(configure);
+BENCHMARK(dust)->Name("particles/dust")->Apply(configure);
+BENCHMARK(nothing)->Name("particles/nothing")->Apply(configure);
 
 }  // namespace
 }  // namespace sunder

@@ -79,7 +79,7 @@ void clip_convex(benchmark::State& state) {
   }
   state.counters["faces"] = static_cast<double>(solid.faces.size());
 }
-BENCHMARK(clip_convex)->Arg(0)->Arg(10)->Arg(30)->Arg(200);
+BENCHMARK(clip_convex)->Name("geometry/clip_convex")->Arg(0)->Arg(10)->Arg(30)->Arg(200);
 
 void clip_missed(benchmark::State& state) {
   const ConvexPolyhedron solid = rounded_box(10);
@@ -90,7 +90,7 @@ void clip_missed(benchmark::State& state) {
     benchmark::DoNotOptimize(clip(solid, plane, {2}, 1e-12, result, scratch));
   }
 }
-BENCHMARK(clip_missed);
+BENCHMARK(clip_missed)->Name("geometry/clip_missed");
 
 void voronoi_against_box(benchmark::State& state) {
   const auto cells = voronoi_planes(static_cast<std::size_t>(state.range(0)));
@@ -116,13 +116,16 @@ void voronoi_against_box(benchmark::State& state) {
   state.counters["clips"] =
       benchmark::Counter(static_cast<double>(clips), benchmark::Counter::kAvgIterations);
 }
-BENCHMARK(voronoi_against_box)->Arg(50)->Unit(benchmark::kMicrosecond);
+BENCHMARK(voronoi_against_box)
+    ->Name("geometry/voronoi_against_box")
+    ->Arg(50)
+    ->Unit(benchmark::kMicrosecond);
 
 void weigh_convex(benchmark::State& state) {
   const ConvexPolyhedron solid = rounded_box(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(mass_properties(solid));
 }
-BENCHMARK(weigh_convex)->Arg(0)->Arg(10)->Arg(30);
+BENCHMARK(weigh_convex)->Name("geometry/weigh_convex")->Arg(0)->Arg(10)->Arg(30);
 
 void hull_of_points(benchmark::State& state) {
   Random random(4);
@@ -130,7 +133,12 @@ void hull_of_points(benchmark::State& state) {
   for (Vec3& p : points) p = random_point(random, 1);
   for (auto _ : state) benchmark::DoNotOptimize(make_hull(points));
 }
-BENCHMARK(hull_of_points)->Arg(30)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(hull_of_points)
+    ->Name("geometry/hull_of_points")
+    ->Arg(30)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Unit(benchmark::kMicrosecond);
 
 /// Returns a torus of 2 * around * tube triangles, rotated so that no edge is parallel to an axis.
 PolygonMesh torus(std::uint32_t around, std::uint32_t tube) {
@@ -172,7 +180,11 @@ void clip_torus(benchmark::State& state) {
   }
   state.counters["faces"] = static_cast<double>(mesh.faces.size());
 }
-BENCHMARK(clip_torus)->Arg(20)->Arg(200)->Unit(benchmark::kMicrosecond);
+BENCHMARK(clip_torus)
+    ->Name("geometry/clip_torus")
+    ->Arg(20)
+    ->Arg(200)
+    ->Unit(benchmark::kMicrosecond);
 
 void voronoi_against_torus(benchmark::State& state) {
   const PolygonMesh mesh = torus(200, 30);
@@ -196,7 +208,12 @@ void voronoi_against_torus(benchmark::State& state) {
     }
   }
 }
-BENCHMARK(voronoi_against_torus)->Arg(20)->Arg(100)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(voronoi_against_torus)
+    ->Name("geometry/voronoi_against_torus")
+    ->Arg(20)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 std::vector<Box> random_boxes(std::size_t count) {
   Random random(5);
@@ -212,7 +229,11 @@ void build_bvh(benchmark::State& state) {
   const std::vector<Box> boxes = random_boxes(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(Bvh(boxes));
 }
-BENCHMARK(build_bvh)->Arg(1000)->Arg(20000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(build_bvh)
+    ->Name("geometry/build_bvh")
+    ->Arg(1000)
+    ->Arg(20000)
+    ->Unit(benchmark::kMicrosecond);
 
 void query_bvh(benchmark::State& state) {
   const std::vector<Box> boxes = random_boxes(20000);
@@ -225,7 +246,7 @@ void query_bvh(benchmark::State& state) {
     benchmark::DoNotOptimize(hits.data());
   }
 }
-BENCHMARK(query_bvh);
+BENCHMARK(query_bvh)->Name("geometry/query_bvh");
 
 }  // namespace
 }  // namespace sunder

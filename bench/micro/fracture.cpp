@@ -1,10 +1,12 @@
 // Timing of fracture: patterns, small and large break events, contacts and islands.
 //
-//   build/fracture_bench --benchmark_filter=Event
+//   build/micro_bench --benchmark_filter=fracture/Event
 //
 // Targets (shared machine, one thread unless stated otherwise): pattern of 100 cells 3 ms; 50 cells
 // on one convex 1 ms; 30 convexes 3 ms; 50 of 20,000 convexes 5 ms, and on 40,000 at most 1.3 times
 // the time on 10,000; contacts and islands of 19,700 convexes from scratch 60 ms.
+#include "fracture/fracture.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +18,6 @@
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/adjacency/connectivity.h"
 #include "fracture/adjacency/islands.h"
-#include "fracture/fracture.h"
 #include "fracture/pattern_breaker.h"
 #include "fracture/solids.h"
 
@@ -37,7 +38,11 @@ void Pattern_of_100_cells(benchmark::State& state) {
   std::uint64_t seed = 0;
   for (auto _ : state) benchmark::DoNotOptimize(voronoi_pattern(100, 2, false, ++seed));
 }
-BENCHMARK(Pattern_of_100_cells)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+BENCHMARK(Pattern_of_100_cells)
+    ->Name("fracture/Pattern_of_100_cells")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond);
 
 void run_event(benchmark::State& state, const Compound& solid, const BreakCommand& command) {
   set_threads(1);
@@ -52,13 +57,17 @@ void Event_50_cells_on_one_convex(benchmark::State& state) {
   const Compound box = box_compound(Vec3::Constant(-1), Vec3::Constant(1));
   run_event(state, box, impact(Vec3::Zero(), std::numeric_limits<double>::infinity()));
 }
-BENCHMARK(Event_50_cells_on_one_convex)->Unit(benchmark::kMillisecond);
+BENCHMARK(Event_50_cells_on_one_convex)
+    ->Name("fracture/Event_50_cells_on_one_convex")
+    ->Unit(benchmark::kMillisecond);
 
 void Event_on_30_convexes(benchmark::State& state) {
   run_event(state, voronoi_compound(30, 1),
             impact(Vec3(.2, .1, .1), std::numeric_limits<double>::infinity()));
 }
-BENCHMARK(Event_on_30_convexes)->Unit(benchmark::kMillisecond);
+BENCHMARK(Event_on_30_convexes)
+    ->Name("fracture/Event_on_30_convexes")
+    ->Unit(benchmark::kMillisecond);
 
 /// A building of about n unit cubes, with an impact sphere that overlaps about 50 of them.
 struct Building {
@@ -93,7 +102,12 @@ void Event_in_a_building(benchmark::State& state) {
       static_cast<double>(building.sphere.touched(building.structure).size());
   state.counters["pieces"] = static_cast<double>(pieces);
 }
-BENCHMARK(Event_in_a_building)->Arg(10000)->Arg(20000)->Arg(40000)->Unit(benchmark::kMillisecond);
+BENCHMARK(Event_in_a_building)
+    ->Name("fracture/Event_in_a_building")
+    ->Arg(10000)
+    ->Arg(20000)
+    ->Arg(40000)
+    ->Unit(benchmark::kMillisecond);
 
 /// Plans and applies breaks at random places of one building.
 void Event_carried_out_in_a_building(benchmark::State& state) {
@@ -112,6 +126,7 @@ void Event_carried_out_in_a_building(benchmark::State& state) {
   state.counters["convexes"] = building.structure.size();
 }
 BENCHMARK(Event_carried_out_in_a_building)
+    ->Name("fracture/Event_carried_out_in_a_building")
     ->Arg(10000)
     ->Arg(20000)
     ->Arg(40000)
@@ -139,7 +154,10 @@ void Islands_after_a_break(benchmark::State& state) {
     }));
   }
 }
-BENCHMARK(Islands_after_a_break)->Arg(20000)->Unit(benchmark::kMillisecond);
+BENCHMARK(Islands_after_a_break)
+    ->Name("fracture/Islands_after_a_break")
+    ->Arg(20000)
+    ->Unit(benchmark::kMillisecond);
 
 void run_islands(benchmark::State& state, const Compound& solid) {
   set_threads(static_cast<int>(state.range(0)));
@@ -156,12 +174,20 @@ void run_islands(benchmark::State& state, const Compound& solid) {
 void Islands_of_a_brick_grid(benchmark::State& state) {
   run_islands(state, grid_compound(27, 27, 27));
 }
-BENCHMARK(Islands_of_a_brick_grid)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+BENCHMARK(Islands_of_a_brick_grid)
+    ->Name("fracture/Islands_of_a_brick_grid")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond);
 
 void Islands_of_voronoi_cells(benchmark::State& state) {
   run_islands(state, voronoi_compound(19683, 1));
 }
-BENCHMARK(Islands_of_voronoi_cells)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+BENCHMARK(Islands_of_voronoi_cells)
+    ->Name("fracture/Islands_of_voronoi_cells")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace sunder::fracture

@@ -1,8 +1,10 @@
 // The rigid solver on common benchmark scenes: rubble, wall, pyramid, stack, and thousands of
 // touching cubes. Each row is followed by results of other engines (one thread, similar machine).
 //
-//   solver_bench [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N] [--rate HZ]
-//                [--colors N] [--lanes N] [--seed N] [--sleep]
+//   solver_bench piles [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N]
+//                      [--rate HZ] [--colors N] [--lanes N] [--seed N] [--sleep]
+#include "bench/piles.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/piles.h"
+#include "bench/solver/solver_bench.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
@@ -173,33 +175,28 @@ void run_all(const Options& options) {
         "first step, median: Box3D 545, 278; Jolt 244, 261; PhysX 1330, 322");
 }
 
-bool parse(int argc, char** argv, Options& options) {
-  return read_flags(argc, argv,
-                    {{"--scene", &options.scene},
-                     {"--threads", &options.threads},
-                     {"--substeps", &options.substeps},
-                     {"--sweeps", &options.sweeps},
-                     {"--colors", &options.colors},
-                     {"--lanes", &options.lanes},
-                     {"--frames", &options.frames},
-                     {"--seed", &options.seed},
-                     {"--rate", &options.rate_Hz},
-                     {"--sleep", &options.sleep}}) &&
-         options.threads > 0 && options.substeps > 0 && options.sweeps > 0 && options.colors >= 0 &&
-         options.colors <= 64 && options.lanes >= 0 && options.rate_Hz >= 60;
-}
-
 }  // namespace
 }  // namespace sunder::solver
 
-int main(int argc, char** argv) {
-  sunder::solver::Options options;
-  if (!sunder::solver::parse(argc, argv, options)) {
-    std::fprintf(stderr,
-                 "usage: %s [--scene NAME] [--threads N] [--substeps N] [--sweeps N] [--frames N] "
-                 "[--rate HZ, >= 60] [--colors 0..64] [--lanes N] [--seed N] [--sleep]\n",
-                 argv[0]);
-    return 2;
-  }
-  sunder::solver::run_all(options);
+int sunder::bench::measure_piles(int argc, char** argv) {
+  solver::Options options;
+  if (!read_flags(argc, argv,
+                  {{"--scene", &options.scene, "NAME"},
+                   {"--threads", &options.threads, "N"},
+                   {"--substeps", &options.substeps, "N"},
+                   {"--sweeps", &options.sweeps, "N"},
+                   {"--frames", &options.frames, "N"},
+                   {"--rate", &options.rate_Hz, "HZ, >= 60"},
+                   {"--colors", &options.colors, "0..64"},
+                   {"--lanes", &options.lanes, "N"},
+                   {"--seed", &options.seed, "N"},
+                   {"--sleep", &options.sleep}},
+                  [&] {
+                    return options.threads > 0 && options.substeps > 0 && options.sweeps > 0 &&
+                           options.colors >= 0 && options.colors <= 64 && options.lanes >= 0 &&
+                           options.rate_Hz >= 60;
+                  }))
+    return kUsageError;
+  solver::run_all(options);
+  return 0;
 }

@@ -5,13 +5,14 @@
 // in the norm of kinetic energy, divided by the distance without any contact. See
 // docs/decisions/022-mass-splitting-and-lanes.md.
 //
-//   convergence_bench [--csv]
+//   solver_bench convergence [--csv]
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "bench/piles.h"
+#include "bench/solver/solver_bench.h"
 #include "solver/rigid/rigid_physics.h"
 #include "tests/fixtures/flags.h"
 
@@ -19,9 +20,6 @@ namespace sunder::solver {
 namespace {
 
 using bench::Pile;
-using bench::pyramid;
-using bench::rubble;
-using bench::stack;
 
 constexpr double kDt_s = 1.0 / 60;
 constexpr int kColors[] = {0, 8, 64};
@@ -125,18 +123,14 @@ void measure(const char* name, Pile set, double time_s, double friction, bool cs
 }  // namespace
 }  // namespace sunder::solver
 
-int main(int argc, char** argv) {
+int sunder::bench::measure_convergence(int argc, char** argv) {
   bool csv = false;
-  if (!sunder::read_flags(argc, argv, {{"--csv", &csv}})) {
-    std::fprintf(stderr, "usage: %s [--csv]\n", argv[0]);
-    return 2;
-  }
+  if (!read_flags(argc, argv, {{"--csv", &csv}})) return kUsageError;
   if (csv) std::printf("scene,friction,sweeps,k0,k8,k64\n");
-  using namespace sunder::solver;
   for (const double friction : {0.0, 0.6}) {
-    measure("rubble of 150", rubble(150), 0.9, friction, csv);
-    measure("pyramid of 55", pyramid(10), 0, friction, csv);
-    measure("stack of 10", stack(10), 0, friction, csv);
+    solver::measure("rubble of 150", rubble(150), 0.9, friction, csv);
+    solver::measure("pyramid of 55", pyramid(10), 0, friction, csv);
+    solver::measure("stack of 10", stack(10), 0, friction, csv);
   }
   return 0;
 }

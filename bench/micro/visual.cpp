@@ -1,6 +1,6 @@
 // Timing of breaks of real meshes.
 //
-//   SUNDER_MESHES=../shared/meshes build/visual_bench
+//   SUNDER_MESHES=../shared/meshes build/micro_bench --benchmark_filter=visual/
 //
 // Targets: dragon_80k in 12 nodes, hit by 50 cells in a quarter of its size, 10 ms; whole bunny_12k
 // by 20 cells 8 ms, by 100 cells 25 ms. Time is wall time; CPU is the processor time of all
@@ -9,10 +9,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "bench/micro/skip.h"
 #include "bench/real_mesh.h"
 #include "engine/base/parallel.h"
-#include "engine/geometry/repair/repair.h"
-#include "engine/io/mesh/mesh_reader.h"
 #include "engine/model/piece_mesh.h"
 #include "fracture/cut/impact_sphere.h"
 #include "fracture/fracture.h"
@@ -24,7 +23,7 @@ namespace {
 Compound decomposed(const std::string& name, std::uint32_t nodes) {
   VacdOptions options;
   options.node_count = nodes;
-  return decompose(repair_mesh(read_mesh(bench::real_mesh(name)), name), options).compound;
+  return decompose(bench::repaired_real_mesh(name), options).compound;
 }
 
 /// Times one break event on a prepared structure with a prepared pattern, as in a simulation.
@@ -65,10 +64,12 @@ void run_event(benchmark::State& state, const Compound& solid, int cells, double
 }
 
 void Dragon_of_12_nodes_hit_by_50_cells(benchmark::State& state) {
+  if (bench::skip_without(state, "dragon_80k.off")) return;
   static const Compound dragon = decomposed("dragon_80k.off", 12);
   run_event(state, dragon, 50, 0.25);
 }
 BENCHMARK(Dragon_of_12_nodes_hit_by_50_cells)
+    ->Name("visual/Dragon_of_12_nodes_hit_by_50_cells")
     ->Arg(1)
     ->Arg(2)
     ->UseRealTime()
@@ -76,11 +77,13 @@ BENCHMARK(Dragon_of_12_nodes_hit_by_50_cells)
     ->Unit(benchmark::kMillisecond);
 
 void Bunny_whole_by_cells(benchmark::State& state) {
+  if (bench::skip_without(state, "bunny_12k.off")) return;
   static const Compound bunny = decomposed("bunny_12k.off", 1);
   run_event(state, bunny, static_cast<int>(state.range(1)),
             std::numeric_limits<double>::infinity());
 }
 BENCHMARK(Bunny_whole_by_cells)
+    ->Name("visual/Bunny_whole_by_cells")
     ->ArgsProduct({{1, 2}, {20, 100}})
     ->UseRealTime()
     ->MeasureProcessCPUTime()
@@ -88,6 +91,7 @@ BENCHMARK(Bunny_whole_by_cells)
 
 /// Times the making of meshes to draw for a bunny in 100 pieces.
 void Bunny_in_100_cells_drawn(benchmark::State& state) {
+  if (bench::skip_without(state, "bunny_12k.off")) return;
   set_threads(1);
   const Compound solid = decomposed("bunny_12k.off", 1);
   const double unit = 0.5 * bounds(solid).extent().norm();
@@ -103,7 +107,9 @@ void Bunny_in_100_cells_drawn(benchmark::State& state) {
     }
   }
 }
-BENCHMARK(Bunny_in_100_cells_drawn)->Unit(benchmark::kMillisecond);
+BENCHMARK(Bunny_in_100_cells_drawn)
+    ->Name("visual/Bunny_in_100_cells_drawn")
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace sunder::fracture

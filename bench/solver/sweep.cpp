@@ -1,7 +1,7 @@
 // Timing of one sweep over the contacts, compared with reading and writing the same bytes once, and
 // timing of contact colouring. Begin at run().
 //
-//   sweep_bench [--sides A,B,...] [--colors N] [--growth]
+//   solver_bench sweep [--sides A,B,...] [--colors N] [--growth]
 //
 // With --growth, the program prints the cost per contact point of a sweep and of a step as the
 // number of bodies grows.
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "bench/piles.h"
+#include "bench/solver/solver_bench.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "solver/rigid/collide/contacts.h"
@@ -239,19 +240,17 @@ int run(const std::vector<int>& sides, int colors) {
 }  // namespace
 }  // namespace sunder::solver
 
-int main(int argc, char** argv) {
+int sunder::bench::measure_sweep(int argc, char** argv) {
   std::string list;
   int colors = 64;
   bool grows = false;
-  if (!sunder::read_flags(argc, argv,
-                          {{"--sides", &list}, {"--colors", &colors}, {"--growth", &grows}})) {
-    std::fprintf(stderr, "usage: %s [--sides A,B,...] [--colors 0..64] [--growth]\n", argv[0]);
-    return 2;
-  }
+  if (!read_flags(
+          argc, argv,
+          {{"--sides", &list, "A,B,..."}, {"--colors", &colors, "0..64"}, {"--growth", &grows}}))
+    return kUsageError;
   std::vector<int> sides;
   std::stringstream words(list);
   for (std::string side; std::getline(words, side, ',');) sides.push_back(std::atoi(side.c_str()));
-  using sunder::solver::growth, sunder::solver::run;
-  if (grows) return growth(sides.empty() ? std::vector{10, 14, 22, 31, 46} : sides);
-  return run(sides.empty() ? std::vector{10, 20, 46} : sides, colors);
+  if (grows) return solver::growth(sides.empty() ? std::vector{10, 14, 22, 31, 46} : sides);
+  return solver::run(sides.empty() ? std::vector{10, 20, 46} : sides, colors);
 }

@@ -1,7 +1,7 @@
 // Timing of a frame by stage, from 1,000 to 100,000 convexes, and memory bandwidth and clock of the
 // machine: the tables of docs/scale.md.
 //
-//   build/scale_bench [--most N] [--threads N] [--only rubble|solid|machine]
+//   solver_bench scale [--most N] [--threads N] [--only rubble|solid|machine]
 //
 // Each run is a process of its own, so that its peak memory can be measured. Begin at run().
 #include <sys/resource.h>
@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench/solver/solver_bench.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
 #include "engine/model/frame.h"
@@ -192,19 +193,20 @@ void machine(int threads) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
 
-int main(int argc, char** argv) {
-  using namespace sunder::bench;
+int measure_scale(int argc, char** argv) {
   int most = 100000, threads = static_cast<int>(std::thread::hardware_concurrency());
   std::string only;
-  if (!read_flags(argc, argv, {{"--most", &most}, {"--threads", &threads}, {"--only", &only}})) {
-    std::fprintf(stderr,
-                 "usage: scale_bench [--most N] [--threads N] [--only rubble|solid|machine]\n");
-    return 2;
-  }
+  if (!read_flags(argc, argv,
+                  {{"--most", &most, "N"},
+                   {"--threads", &threads, "N"},
+                   {"--only", &only, "rubble|solid|machine"}}))
+    return kUsageError;
   const auto wanted = [&](const char* name) { return only.empty() || only == name; };
   if (wanted("rubble")) table("rubble", rubble, static_cast<std::size_t>(most), threads);
   if (wanted("solid")) table("one solid, hit", solid, static_cast<std::size_t>(most), threads);
   if (wanted("machine")) machine(threads);  // last: a process with threads cannot fork
+  return 0;
 }
+
+}  // namespace sunder::bench

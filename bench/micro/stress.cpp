@@ -1,6 +1,6 @@
 // Timing of the stress solve of a compound under self-weight and slow loads.
 //
-//   build/stress_bench
+//   build/micro_bench --benchmark_filter=stress/
 //
 // Target: 8,000 convexes to a residual of 1e-3 in 10 ms on two cores after a change of load.
 // Without a change of load the world does not solve (tests/engine/load_test.cpp).
@@ -54,7 +54,7 @@ void Stress_from_nothing(benchmark::State& state) {
   }
   show(state, result);
 }
-BENCHMARK(Stress_from_nothing)->Apply(arguments);
+BENCHMARK(Stress_from_nothing)->Name("stress/Stress_from_nothing")->Apply(arguments);
 
 /// Solves again after a load of a tenth of the compound's weight is put on a corner of the roof.
 void Stress_when_the_load_has_changed(benchmark::State& state) {
@@ -73,7 +73,9 @@ void Stress_when_the_load_has_changed(benchmark::State& state) {
   }
   show(state, result);
 }
-BENCHMARK(Stress_when_the_load_has_changed)->Apply(arguments);
+BENCHMARK(Stress_when_the_load_has_changed)
+    ->Name("stress/Stress_when_the_load_has_changed")
+    ->Apply(arguments);
 
 /// Evaluates ten impact loads in one step, at points all over the block.
 void Ten_blows(benchmark::State& state) {
@@ -106,14 +108,14 @@ void Ten_blows(benchmark::State& state) {
   }
   state.counters["worst"] = worst;
 }
-BENCHMARK(Ten_blows)->Apply(arguments);
+BENCHMARK(Ten_blows)->Name("stress/Ten_blows")->Apply(arguments);
 
 /// Makes a new stress system, as after a break: geometry of bonds and multigrid levels.
 void Set_up_after_a_break(benchmark::State& state) {
   const Compound compound = block_of(state);
   for (auto _ : state) benchmark::DoNotOptimize(system_of(compound));
 }
-BENCHMARK(Set_up_after_a_break)->Apply(arguments);
+BENCHMARK(Set_up_after_a_break)->Name("stress/Set_up_after_a_break")->Apply(arguments);
 
 }  // namespace
 }  // namespace sunder::fracture

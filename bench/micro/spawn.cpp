@@ -31,7 +31,7 @@ void hulls(benchmark::State& state) {
     benchmark::DoNotOptimize(&hull);
   }
 }
-BENCHMARK(hulls)->Arg(8)->Arg(16)->Arg(24);
+BENCHMARK(hulls)->Name("spawn/hulls")->Arg(8)->Arg(16)->Arg(24);
 
 /// Adds a thousand bodies to a new world in one call; the counter `each` is the time per body.
 void bodies(benchmark::State& state) {
@@ -51,7 +51,7 @@ void bodies(benchmark::State& state) {
   state.counters["each"] = benchmark::Counter(
       kCount, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(bodies)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond);
+BENCHMARK(bodies)->Name("spawn/bodies")->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond);
 
 /// Removes 50 convexes at a time from a static block of boxes after a collision step.
 void leave(benchmark::State& state) {
@@ -88,7 +88,7 @@ void leave(benchmark::State& state) {
     physics->edit({id, gone, {}});
   }
 }
-BENCHMARK(leave)->Unit(benchmark::kMicrosecond);
+BENCHMARK(leave)->Name("spawn/leave")->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace sunder::solver
