@@ -18,6 +18,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "scenes/app/child_process.h"
 #include "scenes/app/run.h"
@@ -257,7 +258,7 @@ int bench(const BenchOptions& options) {
   if (!options.against.empty()) old = measured.others;
   if (options.accept && stopped == 0) {
     scenes::accept_states(scenes, book);
-    write_text(options.hashes, scenes::format_hashes(book));
+    write_file(options.hashes, scenes::format_hashes(book));
   }
   std::vector<Verdict> verdicts = scenes::compare_states(scenes, book, options.hashes);
   scenes::Comparison comparison;
@@ -269,9 +270,9 @@ int bench(const BenchOptions& options) {
   options.print(scenes::timing_table(scenes) + scenes::features_table(scenes) +
                 scenes::changes_table(comparison.changes) + scenes::verdict_lines(verdicts, false));
   options.write_json(format_figures(scenes::document_of(scenes)));
-  if (!options.junit.empty()) write_text(options.junit, scenes::junit_xml("bench", verdicts));
+  if (!options.junit.empty()) write_file(options.junit, scenes::junit_xml("bench", verdicts));
   if (!options.page.empty()) {
-    write_text(options.page, scenes::timing_page(scenes, verdicts, comparison.changes));
+    write_file(options.page, scenes::timing_page(scenes, verdicts, comparison.changes));
   }
   const std::string failed = scenes::verdict_lines(verdicts, true);
   std::fputs(failed.c_str(), stderr);

@@ -151,7 +151,4 @@ int golden_report(const GoldenOptions& options);
 int golden_accept(const GoldenOptions& options);
 int golden_record(const GoldenOptions& options);
 
-/// Writes a text file under a temporary name and then renames the file. Throws FileError.
-void write_text(const std::string& path, const std::string& text);
-
 }  // namespace sunder::app

@@ -13,6 +13,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "engine/io/bytes.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/statistics.h"
 #include "render/renderer.h"
@@ -151,7 +152,7 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
     for (const GoldenResult& result : results) {
       verdicts.insert(verdicts.end(), result.verdicts.begin(), result.verdicts.end());
     }
-    write_text(options.junit, scenes::junit_xml("golden", verdicts));
+    write_file(options.junit, scenes::junit_xml("golden", verdicts));
   }
   options.write_json(format_results(results));
   return results;
@@ -203,7 +204,7 @@ int golden_report(const GoldenOptions& options) {
           {{verdict.what}, {verdict.text, verdict.outcome == Outcome::kFailed}});
     }
   }
-  write_text(page.string(), scenes::golden_report(pictures));
+  write_file(page, scenes::golden_report(pictures));
   options.print("wrote " + page.string() + "\n");
   return exit_code(results);
 }
@@ -234,7 +235,7 @@ int golden_accept(const GoldenOptions& options) {
       const scenes::StateHashes before = scenes::read_hashes(file);
       scenes::StateHashes book = before;
       scenes::accept_frames(golden.run(), book);
-      if (book != before) write_text(file, scenes::format_hashes(book));
+      if (book != before) write_file(file, scenes::format_hashes(book));
       message += book == before ? ", simulation unchanged" : ", new simulation";
     }
     options.print("accepted " + name + ": " + message + "\n");

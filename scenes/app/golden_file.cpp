@@ -11,6 +11,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
+#include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "engine/model/view_path.h"
 #include "scenes/app/commands.h"
@@ -168,7 +169,7 @@ void write_golden(const Golden& golden) {
   for (std::size_t i = 0; i < golden.load.set.size(); ++i) {
     figures["/set/" + std::to_string(i)] = golden.load.set[i];
   }
-  write_text(golden.file(".json").string(), format_figures(figures));
+  write_file(golden.file(".json"), format_figures(figures));
 }
 
 bool GoldenResult::drawing_passed() const {

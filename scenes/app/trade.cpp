@@ -8,6 +8,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "scenes/app/child_process.h"
 #include "scenes/app/commands.h"
@@ -133,11 +134,11 @@ int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   const scenes::Trade found = scenes::merge(runs, options.output);
   const fs::path folder = options.output;
   const std::string json = scenes::trade_json(found);
-  write_text((folder / "trade.csv").string(), scenes::trade_csv(found));
-  write_text((folder / "trade.json").string(), json);
-  write_text((folder / "trade.html").string(), scenes::trade_html(found));
+  write_file(folder / "trade.csv", scenes::trade_csv(found));
+  write_file(folder / "trade.json", json);
+  write_file(folder / "trade.html", scenes::trade_html(found));
   for (const scenes::SceneTrade& scene : found.scenes) {
-    write_text((folder / (scene.scene + ".svg")).string(), scenes::trade_svg(scene));
+    write_file(folder / (scene.scene + ".svg"), scenes::trade_svg(scene));
   }
   options.print(scenes::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
   options.write_json(json);

@@ -109,10 +109,7 @@ Figures read_figures(const fs::path& file) {
 }
 
 void write_figures(const fs::path& file, const Figures& figures) {
-  const std::string text = format_figures(figures);
-  std::vector<std::byte> bytes(text.size());
-  std::memcpy(bytes.data(), text.data(), text.size());
-  write_file(file, bytes);
+  write_file(file, format_figures(figures));
 }
 
 }  // namespace
