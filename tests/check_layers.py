@@ -21,24 +21,27 @@ LAYERS = {
                ("rigid/joint",), ("rigid/contact/kernels",), ("rigid/contact",),
                ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
-    "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("app",)),
+    "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("report",), ("timing", "trade"),
+               ("app",)),
 }
 LAYER_OF = {str(Path(module, folder)): layer for module, layers in LAYERS.items()
             for layer, folders in enumerate(layers) for folder in folders}
 
 MODULE_LIBRARIES = tuple(LAYERS)
 
-# Module -> the modules that its sources may include. The program, scenes/app, may include every
-# module and is included by none.
+# Module, or folder with rules of its own -> those that its sources may include. Nothing includes
+# the program, scenes/app; bench and tests share the fixtures in tests/fixtures.
+LIBRARIES = {"engine", "fracture", "solver", "render", "scenes"}
 MAY_INCLUDE = {
     "engine": {"engine"},
     "fracture": {"engine", "fracture"},
     "solver": {"engine", "solver"},
     "render": {"engine", "render"},
-    "scenes": {"engine", "fracture", "solver", "render", "scenes"},
-    "scenes/app": {"engine", "fracture", "solver", "render", "scenes", "bench"},
-    "bench": {"engine", "fracture", "solver", "render", "scenes", "bench"},
-    "tests": set(MODULES),
+    "scenes": LIBRARIES,
+    "scenes/app": LIBRARIES | {"scenes/app"},
+    "tests/fixtures": LIBRARIES | {"tests/fixtures"},
+    "bench": LIBRARIES | {"tests/fixtures", "bench"},
+    "tests": LIBRARIES | {"tests/fixtures", "bench", "tests"},
 }
 
 # Third-party header -> the modules or paths that may include it.
@@ -73,7 +76,8 @@ def sources(root):
 
 def owner(path):
     """Returns the row of MAY_INCLUDE that a path belongs to."""
-    return "scenes/app" if path.parts[:2] == ("scenes", "app") else path.parts[0]
+    folder = "/".join(path.parts[:2])
+    return folder if folder in MAY_INCLUDE else path.parts[0]
 
 
 def place(path):
@@ -94,10 +98,8 @@ def check_own_include(root, path, target):
     if not (root / target).is_file() and not (root / (target + ".in")).is_file():
         return f'"{target}" is not a path from the root of the project'
     target = Path(target)
-    if owner(target) == "scenes/app" and owner(path) != "scenes/app":
-        return f'"{target}": only the program may include the program'
-    if target.parts[0] not in MAY_INCLUDE[owner(path)]:
-        return f'{path.parts[0]} may not include {target.parts[0]}: "{target}"'
+    if owner(target) not in MAY_INCLUDE[owner(path)]:
+        return f'{owner(path)} may not include {owner(target)}: "{target}"'
     mine, other = place(path), place(target)
     if path.parts[0] == target.parts[0] and mine != other and mine in LAYER_OF:
         if LAYER_OF.get(other, 99) >= LAYER_OF[mine]:

@@ -27,9 +27,13 @@ GOOD = {
     "solver/rigid/body/low.h": HEADER + '#include "solver/rigid/tuning.h"\n',
     "render/r.h": HEADER + '#include <GL/glcorearb.h>\n#include "engine/world/w.h"\n',
     "scenes/s.h": HEADER + '#include <toml++/toml.h>\n#include "fracture/f.h"\n',
-    "scenes/app/app.h": HEADER + '#include "bench/b.h"\n#include "scenes/s.h"\n',
-    "bench/b.h": HEADER + '#include <benchmark/benchmark.h>\n#include "solver/rigid/r.h"\n',
-    "tests/t.h": HEADER + '#include <gtest/gtest.h>\n#include "bench/b.h"\n',
+    "scenes/app/app.h": HEADER + '#include "scenes/s.h"\n#include "scenes/timing/time.h"\n',
+    "scenes/timing/time.h": HEADER + '#include "scenes/report/page.h"\n',
+    "scenes/report/page.h": HEADER + '#include "render/r.h"\n',
+    "bench/b.h": HEADER + '#include <benchmark/benchmark.h>\n#include "tests/fixtures/f.h"\n',
+    "tests/fixtures/f.h": HEADER + '#include "scenes/s.h"\n#include "solver/rigid/r.h"\n',
+    "tests/t.h": HEADER + '#include <gtest/gtest.h>\n#include "bench/b.h"\n'
+                 '#include "tests/fixtures/f.h"\n',
 }
 
 # Violation -> file to add to GOOD, its text, and a part of the expected message.
@@ -62,7 +66,20 @@ BAD = {
     "a benchmark includes a test":
         ("bench/c.h", HEADER + '#include "tests/t.h"\n', "bench may not include tests"),
     "a test includes the program":
-        ("tests/b.h", HEADER + '#include "scenes/app/app.h"\n', "only the program may include"),
+        ("tests/b.h", HEADER + '#include "scenes/app/app.h"\n', "tests may not include scenes/app"),
+    "scenes include the program":
+        ("scenes/b.h", HEADER + '#include "scenes/app/app.h"\n',
+         "scenes may not include scenes/app"),
+    "the program includes a benchmark":
+        ("scenes/app/b.h", HEADER + '#include "bench/b.h"\n', "scenes/app may not include bench"),
+    "the commands' libraries include each other":
+        ("scenes/trade/b.h", HEADER + '#include "scenes/timing/time.h"\n', "not in a lower layer"),
+    "a fixture includes a benchmark":
+        ("tests/fixtures/c.h", HEADER + '#include "bench/b.h"\n',
+         "tests/fixtures may not include bench"),
+    "a fixture includes a test":
+        ("tests/fixtures/c.h", HEADER + '#include "tests/t.h"\n',
+         "tests/fixtures may not include tests"),
     "an include is not spelled from the root":
         ("fracture/b.h", HEADER + '#include "f.h"\n', "not a path from the root"),
     "OpenMP outside its modules":

@@ -18,8 +18,6 @@ MODULES = {
     "solver": "Motion of bodies and particles",
     "render": "Images and videos",
     "scenes": "Scene files, structures and commands",
-    "bench/timing": "The command `bench`",
-    "bench/trade": "The command `trade`",
 }
 HELPERS = "fail|fail_at|refuse|require|in_plane"
 # Functions whose literals are part of the message; those of other calls (names of keys) are not.

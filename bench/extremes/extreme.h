@@ -1,5 +1,6 @@
 // Validation of extreme scenes: results at every preset, and the warnings that a user gets for
-// these scenes. Printed by extremes_bench, asserted by tests/truths, listed in docs/extremes.md.
+// these scenes. Printed by `validation_bench extremes`, asserted by tests/truths, listed in
+// docs/extremes.md.
 //
 // Begin at extreme(). Each file of the folder has the scenes of one theme.
 #pragma once

@@ -7,12 +7,12 @@
 #include <cstring>
 #include <string>
 
-#include "bench/flags.h"
 #include "bench/peers/peer.h"
 #include "bench/peers/penetration.h"
 #include "bench/piles.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/flags.h"
 
 namespace sunder::bench {
 namespace {
@@ -171,25 +171,17 @@ void run_all(const Options& options) {
   }
 }
 
-bool parse(int argc, char** argv, Options& options) {
-  return read_flags(argc, argv,
-                    {{"--hulls", &options.hulls},
-                     {"--frames", &options.frames},
-                     {"--engine", &options.engine},
-                     {"--defaults", &options.defaults}}) &&
-         options.hulls > 0 && options.frames > 0;
-}
-
 }  // namespace
 }  // namespace sunder::bench
 
 int main(int argc, char** argv) {
   sunder::bench::Options options;
-  if (!sunder::bench::parse(argc, argv, options)) {
-    std::fprintf(stderr,
-                 "usage: %s [--hulls N] [--frames N] [--engine sunder|bullet|ode] [--defaults]\n",
-                 argv[0]);
-    return 2;
-  }
+  if (!sunder::read_flags(argc, argv,
+                          {{"--hulls", &options.hulls, "N"},
+                           {"--frames", &options.frames, "N"},
+                           {"--engine", &options.engine, "sunder|bullet|ode"},
+                           {"--defaults", &options.defaults}},
+                          [&] { return options.hulls > 0 && options.frames > 0; }))
+    return sunder::kUsageError;
   sunder::bench::run_all(options);
 }

@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
-#include "bench/truths/forwarding_physics.h"
 #include "bench/truths/truth.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
+#include "tests/fixtures/forwarding_physics.h"
 
 namespace sunder::truths {
 namespace {
@@ -29,7 +29,7 @@ struct MassAndMotion {
 };
 
 /// Rigid physics that sums mass and motion of its dynamic bodies.
-class SummingPhysics final : public bench::ForwardingPhysics {
+class SummingPhysics final : public ForwardingPhysics {
  public:
   using ForwardingPhysics::ForwardingPhysics;
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <tuple>
 
-#include "bench/truths/standing.h"
 #include "bench/truths/truth.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
+#include "tests/fixtures/standing.h"
 
 namespace sunder::truths {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/flags.h"
 #include "engine/base/cpu_time.h"
+#include "tests/fixtures/flags.h"
 
 namespace sunder::truths {
 namespace {
@@ -162,18 +162,13 @@ bool is_preset(const std::string& preset) {
 
 int table_main(int argc, char** argv, const Truths& truths) {
   Options options;
-  if (!bench::read_flags(argc, argv,
-                         {{"--only", &options.only},
-                          {"--preset", &options.preset},
-                          {"--json", &options.json},
-                          {"--markdown", &options.markdown}}) ||
-      !is_preset(options.preset)) {
-    std::fprintf(stderr,
-                 "usage: %s [--only SUBSTRING] [--preset draft|realtime|accurate|reference] "
-                 "[--markdown] [--json FILE|-]\n",
-                 argv[0]);
-    return 2;
-  }
+  if (!read_flags(argc, argv,
+                  {{"--only", &options.only, "SUBSTRING"},
+                   {"--preset", &options.preset, "draft|realtime|accurate|reference"},
+                   {"--markdown", &options.markdown},
+                   {"--json", &options.json, "FILE|-"}},
+                  [&] { return is_preset(options.preset); }))
+    return kUsageError;
   return run(options, truths);
 }
 

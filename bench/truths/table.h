@@ -5,7 +5,7 @@
 
 namespace sunder::truths {
 
-/// Main function of the programs that print validation cases:
+/// Main function of the commands that print validation cases:
 ///   [--only SUBSTRING] [--preset NAME] [--markdown] [--json FILE|-]
 int table_main(int argc, char** argv, const Truths& truths);
 

@@ -1,5 +1,5 @@
 // Validation cases: quantities with a published or closed-form reference, measured at every preset.
-// Asserted by tests/truths, printed by truths_bench, listed in docs/truths.md.
+// Asserted by tests/truths, printed by `validation_bench truths`, listed in docs/truths.md.
 //
 // Begin at Truth. Each file of the folder has the cases of one theme.
 #pragma once
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/truths/presets.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::truths {
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -129,5 +130,8 @@ void replace_file(const std::filesystem::path& temporary, const std::filesystem:
 /// Writes a file under a temporary name and renames it; writes to a device or pipe directly.
 /// Creates the folder. Throws FileError on failure.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+inline void write_file(const std::filesystem::path& path, std::string_view text) {
+  write_file(path, std::as_bytes(std::span(text)));
+}
 
 }  // namespace sunder

@@ -16,25 +16,26 @@
 #include <span>
 #include <stdexcept>
 
-#include "bench/timing/compare.h"
-#include "bench/timing/hash_book.h"
-#include "bench/timing/states.h"
-#include "bench/timing/timing.h"
-#include "bench/timing/timing_report.h"
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "scenes/app/child_process.h"
 #include "scenes/app/run.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/features.h"
 #include "scenes/file/text_file.h"
+#include "scenes/timing/compare.h"
+#include "scenes/timing/hash_book.h"
+#include "scenes/timing/states.h"
+#include "scenes/timing/timing.h"
+#include "scenes/timing/timing_report.h"
 
 namespace sunder::app {
 namespace {
 
-using bench::TimedRun;
-using bench::Verdict;
+using scenes::TimedRun;
+using scenes::Verdict;
 
 /// A scene to time, maybe without a feature or by another program, and the figures of its repeats.
 struct Timed {
@@ -50,8 +51,8 @@ std::vector<Timed> timed_runs(const BenchOptions& options) {
   std::set<std::string> names;
   for (const std::string& asked : options.scenes) {
     TimedRun run{asked, options.load, options.frames, ""};
-    const Scene scene = bench::load_scene(run);
-    run.frames = std::min(run.frames, bench::last_frame(scene));
+    const Scene scene = scenes::load_scene(run);
+    run.frames = std::min(run.frames, scenes::last_frame(scene));
     if (!names.insert(scene.name).second) {
       throw InputError(asked + ": duplicate scene " + scene.name + "; time it in a separate run");
     }
@@ -77,7 +78,7 @@ std::string title_of(const Timed& timed) {
 int run_here(const BenchOptions& options, const Timed& timed, bool warn, std::FILE* file) {
   try {
     options.apply();
-    const std::string text = format_figures(bench::time_run(timed.run, warn));
+    const std::string text = format_figures(scenes::time_run(timed.run, warn));
     return std::fputs(text.c_str(), file) >= 0 && std::fflush(file) == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", title_of(timed).c_str(), error.what());
@@ -164,7 +165,7 @@ Figures median_of(const Timed& timed) {
   for (const std::string& text : timed.repeats) {
     repeats.push_back(parse_figures(text, title_of(timed)));
   }
-  return bench::median_of(repeats);
+  return scenes::median_of(repeats);
 }
 
 /// Repeats all runs in turns, each run once in a turn, so that a temporary slowdown of the machine
@@ -211,7 +212,7 @@ Measured measure(const BenchOptions& options) {
 }
 
 std::vector<Figures> read_timings(const std::string& file) {
-  return bench::scenes_of(parse_figures(scenes::read_text(file), file), file);
+  return scenes::scenes_of(parse_figures(scenes::read_text(file), file), file);
 }
 
 /// Returns the fraction of --fail-slower by which a stage may be slower; none without the option.
@@ -220,7 +221,7 @@ std::optional<double> fail_slower_of(const BenchOptions& options) {
   if (options.compare.empty() && options.against.empty()) {
     throw InputError("--fail-slower needs --compare OLD.json or --against PROGRAM");
   }
-  return bench::parse_percent("--fail-slower", options.fail_slower);
+  return scenes::parse_percent("--fail-slower", options.fail_slower);
 }
 
 void check_program(const std::string& program) {
@@ -236,7 +237,7 @@ void check_program(const std::string& program) {
 int bench(const BenchOptions& options) {
   const std::optional<double> fail_slower = fail_slower_of(options);
   check_program(options.against);
-  bench::StateHashes book = bench::read_hashes(options.hashes);
+  scenes::StateHashes book = scenes::read_hashes(options.hashes);
   std::vector<Figures> old;
   if (!options.compare.empty()) old = read_timings(options.compare);
 
@@ -256,24 +257,24 @@ int bench(const BenchOptions& options) {
   const std::string old_name = options.against.empty() ? options.compare : options.against;
   if (!options.against.empty()) old = measured.others;
   if (options.accept && stopped == 0) {
-    bench::accept_states(scenes, book);
-    write_text(options.hashes, bench::format_hashes(book));
+    scenes::accept_states(scenes, book);
+    write_file(options.hashes, scenes::format_hashes(book));
   }
-  std::vector<Verdict> verdicts = bench::compare_states(scenes, book, options.hashes);
-  bench::Comparison comparison;
+  std::vector<Verdict> verdicts = scenes::compare_states(scenes, book, options.hashes);
+  scenes::Comparison comparison;
   if (!old_name.empty()) {
-    comparison = bench::compare(scenes, old, old_name, fail_slower, !options.against.empty());
+    comparison = scenes::compare(scenes, old, old_name, fail_slower, !options.against.empty());
     verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
   }
 
-  options.print(bench::timing_table(scenes) + bench::features_table(scenes) +
-                bench::changes_table(comparison.changes) + bench::verdict_lines(verdicts, false));
-  options.write_json(format_figures(bench::document_of(scenes)));
-  if (!options.junit.empty()) write_text(options.junit, bench::junit_xml("bench", verdicts));
+  options.print(scenes::timing_table(scenes) + scenes::features_table(scenes) +
+                scenes::changes_table(comparison.changes) + scenes::verdict_lines(verdicts, false));
+  options.write_json(format_figures(scenes::document_of(scenes)));
+  if (!options.junit.empty()) write_file(options.junit, scenes::junit_xml("bench", verdicts));
   if (!options.page.empty()) {
-    write_text(options.page, bench::timing_page(scenes, verdicts, comparison.changes));
+    write_file(options.page, scenes::timing_page(scenes, verdicts, comparison.changes));
   }
-  const std::string failed = bench::verdict_lines(verdicts, true);
+  const std::string failed = scenes::verdict_lines(verdicts, true);
   std::fputs(failed.c_str(), stderr);
   return stopped != 0 ? 128 + stopped : failed.empty() ? 0 : 1;
 }

@@ -1,7 +1,6 @@
 #include "scenes/app/commands.h"
 
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 #include "engine/base/parallel.h"
@@ -28,7 +27,7 @@ void CommonOptions::write_json(const std::string& text) const {
   if (json == "-") {
     std::fputs(text.c_str(), stdout);
   } else if (!json.empty()) {
-    write_text(json, text);
+    write_file(json, text);
   }
 }
 
@@ -38,12 +37,6 @@ std::string goldens_folder() {
   const bool is_where_built =
       std::filesystem::equivalent(program.parent_path(), SUNDER_BUILD_FOLDER, ignored);
   return is_where_built ? SUNDER_GOLDENS_FOLDER : "tests/golden";
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::vector<std::byte> bytes(text.size());
-  std::memcpy(bytes.data(), text.data(), text.size());
-  write_file(path, bytes);
 }
 
 }  // namespace sunder::app

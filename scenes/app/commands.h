@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/timing/timing.h"
 #include "render/renderer.h"
 #include "scenes/file/mesh_solid.h"
 #include "scenes/load.h"
+#include "scenes/timing/timing.h"
 
 namespace sunder::app {
 
@@ -68,7 +68,7 @@ struct BenchOptions : CommonOptions {
   BenchOptions() { threads = 1; }  ///< Threads that wait for each other would count as time.
   std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
   scenes::LoadOptions load;
-  int frames = bench::kStateFrames;  ///< Index of the last frame, if the scene is that long.
+  int frames = scenes::kStateFrames;  ///< Index of the last frame, if the scene is that long.
   int repeats = 5;
   int warm_up = 1;          ///< Turns before the repeats, which are not counted.
   bool features = false;    ///< True to also time scenes without each feature they have.
@@ -150,8 +150,5 @@ int golden_test(const GoldenOptions& options);
 int golden_report(const GoldenOptions& options);
 int golden_accept(const GoldenOptions& options);
 int golden_record(const GoldenOptions& options);
-
-/// Writes a text file under a temporary name and then renames the file. Throws FileError.
-void write_text(const std::string& path, const std::string& text);
 
 }  // namespace sunder::app

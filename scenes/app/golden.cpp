@@ -11,26 +11,27 @@
 #include <memory>
 #include <tuple>
 
-#include "bench/timing/frame_states.h"
-#include "bench/timing/hash_book.h"
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "engine/io/bytes.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/statistics.h"
-#include "render/image/golden_report.h"
 #include "render/renderer.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/golden_file.h"
 #include "scenes/app/run.h"
 #include "scenes/file/view.h"
+#include "scenes/report/golden_report.h"
+#include "scenes/timing/frame_states.h"
+#include "scenes/timing/hash_book.h"
 
 namespace sunder::app {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::Outcome;
-using bench::Verdict;
+using scenes::Outcome;
+using scenes::Verdict;
 
 /// Draws goldens; those with equal settings share a renderer.
 class Drawer {
@@ -130,8 +131,8 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
     if (result.golden.is_simulated()) {
       result.verdicts.push_back(check_view(result.golden));
       const std::string book = result.golden.hashes_file().string();
-      const auto verdicts =
-          bench::compare_frames(result.golden.run(), bench::read_hashes(book), book, options.full);
+      const auto verdicts = scenes::compare_frames(result.golden.run(), scenes::read_hashes(book),
+                                                   book, options.full);
       result.verdicts.insert(result.verdicts.end(), verdicts.begin(), verdicts.end());
     }
     options.print((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
@@ -151,7 +152,7 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
     for (const GoldenResult& result : results) {
       verdicts.insert(verdicts.end(), result.verdicts.begin(), result.verdicts.end());
     }
-    write_text(options.junit, bench::junit_xml("golden", verdicts));
+    write_file(options.junit, scenes::junit_xml("golden", verdicts));
   }
   options.write_json(format_results(results));
   return results;
@@ -193,7 +194,7 @@ int golden_report(const GoldenOptions& options) {
   const std::vector<GoldenResult> results = compare_all(options);
   fs::create_directories(options.out);
   const fs::path page = fs::path(options.out) / "report.html";
-  std::vector<render::GoldenResult> pictures;
+  std::vector<scenes::GoldenResult> pictures;
   for (const GoldenResult& r : results) {
     pictures.push_back({r.golden.name, r.passed(), r.sentence(), r.baseline, r.actual, r.difference,
                         r.golden.thresholds, r.golden.command(), r.golden.accept_command(),
@@ -203,7 +204,7 @@ int golden_report(const GoldenOptions& options) {
           {{verdict.what}, {verdict.text, verdict.outcome == Outcome::kFailed}});
     }
   }
-  write_text(page.string(), render::golden_report(pictures));
+  write_file(page, scenes::golden_report(pictures));
   options.print("wrote " + page.string() + "\n");
   return exit_code(results);
 }
@@ -231,10 +232,10 @@ int golden_accept(const GoldenOptions& options) {
     if (has_other_view) message += ", new frame";
     if (golden.is_simulated()) {
       const std::string file = golden.hashes_file().string();
-      const bench::StateHashes before = bench::read_hashes(file);
-      bench::StateHashes book = before;
-      bench::accept_frames(golden.run(), book);
-      if (book != before) write_text(file, bench::format_hashes(book));
+      const scenes::StateHashes before = scenes::read_hashes(file);
+      scenes::StateHashes book = before;
+      scenes::accept_frames(golden.run(), book);
+      if (book != before) write_file(file, scenes::format_hashes(book));
       message += book == before ? ", simulation unchanged" : ", new simulation";
     }
     options.print("accepted " + name + ": " + message + "\n");

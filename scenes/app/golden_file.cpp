@@ -11,6 +11,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
+#include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "engine/model/view_path.h"
 #include "scenes/app/commands.h"
@@ -168,24 +169,24 @@ void write_golden(const Golden& golden) {
   for (std::size_t i = 0; i < golden.load.set.size(); ++i) {
     figures["/set/" + std::to_string(i)] = golden.load.set[i];
   }
-  write_text(golden.file(".json").string(), format_figures(figures));
+  write_file(golden.file(".json"), format_figures(figures));
 }
 
 bool GoldenResult::drawing_passed() const {
-  return verdicts.front().outcome == bench::Outcome::kPassed;
+  return verdicts.front().outcome == scenes::Outcome::kPassed;
 }
 
 bool GoldenResult::passed() const {
-  return std::ranges::all_of(verdicts, [](const bench::Verdict& verdict) {
-    return verdict.outcome == bench::Outcome::kPassed;
+  return std::ranges::all_of(verdicts, [](const scenes::Verdict& verdict) {
+    return verdict.outcome == scenes::Outcome::kPassed;
   });
 }
 
 std::string GoldenResult::sentence() const {
   std::string text = "drawing " + verdicts.front().text;
   bool is_same = true;
-  for (const bench::Verdict& verdict : std::span(verdicts).subspan(1)) {
-    if (verdict.outcome == bench::Outcome::kPassed) continue;
+  for (const scenes::Verdict& verdict : std::span(verdicts).subspan(1)) {
+    if (verdict.outcome == scenes::Outcome::kPassed) continue;
     text += "; " + verdict.what + " " + verdict.text;
     is_same = false;
   }
@@ -206,10 +207,10 @@ std::string format_results(const std::vector<GoldenResult>& results) {
     figures[at + "/renderer"] = result.renderer;
     figures[at + "/remade_by"] = result.golden.command();
     for (std::size_t j = 0; j < result.verdicts.size(); ++j) {
-      const bench::Verdict& verdict = result.verdicts[j];
+      const scenes::Verdict& verdict = result.verdicts[j];
       const std::string of = at + "/verdicts/" + std::to_string(j);
       figures[of + "/what"] = verdict.what;
-      figures[of + "/passed"] = verdict.outcome == bench::Outcome::kPassed;
+      figures[of + "/passed"] = verdict.outcome == scenes::Outcome::kPassed;
       figures[of + "/text"] = verdict.text;
     }
   }

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/timing/frame_states.h"
-#include "bench/timing/verdict.h"
 #include "engine/model/scene.h"
 #include "render/image/compare.h"
 #include "render/sinks.h"
+#include "scenes/timing/frame_states.h"
+#include "scenes/timing/verdict.h"
 
 namespace sunder::app {
 
@@ -40,7 +40,7 @@ struct Golden {
   std::string scene_file() const;
   std::filesystem::path frame_file() const;
   /// Returns the run whose states are compared with the stored ones.
-  bench::GuardedRun run() const { return {name, scene_file(), load, frame}; }
+  scenes::GuardedRun run() const { return {name, scene_file(), load, frame}; }
   /// Returns the shell commands that make the golden again.
   std::string command() const;
   std::string accept_command() const;
@@ -62,7 +62,7 @@ struct GoldenResult {
   render::Difference difference;
   std::string renderer;
   /// Verdict on the drawing; for a golden of a scene, then on its view and on each simulation.
-  std::vector<bench::Verdict> verdicts;
+  std::vector<scenes::Verdict> verdicts;
 
   bool drawing_passed() const;
   bool passed() const;

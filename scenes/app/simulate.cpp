@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "engine/io/bytes.h"
 #include "engine/io/recording/recording.h"
 #include "engine/io/recording/recording_verifier.h"
 #include "engine/io/statistics.h"
@@ -40,7 +41,7 @@ int simulate(const SimulateOptions& options) {
   if (!options.trace.empty()) start_trace();
   const int exit_code = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
-    write_text(options.trace, format_trace(stop_trace()));
+    write_file(options.trace, format_trace(stop_trace()));
     options.print("wrote " + options.trace + ": open it at ui.perfetto.dev\n");
   }
   if (const std::string warning = statistics.limits_warning(); !warning.empty())

@@ -6,32 +6,33 @@
 #include <cstdio>
 #include <map>
 
-#include "bench/trade/merge.h"
-#include "bench/trade/report.h"
-#include "bench/trade/run_file.h"
-#include "bench/trade/study.h"
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "scenes/app/child_process.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/file/text_file.h"
+#include "scenes/trade/merge.h"
+#include "scenes/trade/report.h"
+#include "scenes/trade/run_file.h"
+#include "scenes/trade/study.h"
 
 namespace sunder::app {
 namespace {
 
 namespace fs = std::filesystem;
-using bench::StudyRun;
+using scenes::StudyRun;
 
-bench::Study study_of(const TradeOptions& options) {
-  bench::Study study;
+scenes::Study study_of(const TradeOptions& options) {
+  scenes::Study study;
   study.scenes = options.scenes;
   study.points = options.points.empty()
-                     ? bench::default_points()
-                     : bench::parse_points(scenes::read_text(options.points), options.points);
+                     ? scenes::default_points()
+                     : scenes::parse_points(scenes::read_text(options.points), options.points);
   for (const std::string& assignment : options.switches) {
-    bench::add_switch(study.points, assignment);
+    scenes::add_switch(study.points, assignment);
   }
   for (const std::string& assignment : options.load.set) {
     if (assignment.starts_with("scene.seed=")) {
@@ -71,8 +72,8 @@ std::vector<PendingRun> pending_runs(const std::vector<StudyRun>& runs, const fs
   std::map<std::pair<std::string, std::string>, double> work_at;
   for (const StudyRun& run : runs) {
     const auto [at, is_new] = work_at.try_emplace({run.scene, run.point.name});
-    if (is_new) at->second = bench::work_of(bench::load_scene(run), run);
-    const bench::StoredRun stored = bench::read_run(folder, run);
+    if (is_new) at->second = scenes::work_of(scenes::load_scene(run), run);
+    const scenes::StoredRun stored = scenes::read_run(folder, run);
     if (stored.missing.empty()) continue;
     if (stored.damaged) {
       std::fprintf(stderr, "%s: %s; run again\n", run.name().c_str(), stored.missing.c_str());
@@ -86,7 +87,7 @@ std::vector<PendingRun> pending_runs(const std::vector<StudyRun>& runs, const fs
 int carry_out_here(const TradeOptions& options, const StudyRun& run) {
   try {
     options.apply();
-    bench::write_run(options.output, run, bench::carry_out(run));
+    scenes::write_run(options.output, run, scenes::carry_out(run));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "failed: %s: %s\n", run.name().c_str(), error.what());
@@ -99,9 +100,9 @@ int carry_out_here(const TradeOptions& options, const StudyRun& run) {
 bool carry_out_in_child(const TradeOptions& options, const StudyRun& run) {
   const ProcessResult ended = run_in_child([&] { return carry_out_here(options, run); });
   if (ended.crashed()) {
-    bench::Ran crashed;
+    scenes::Ran crashed;
     crashed.result.failed = ended.description();
-    bench::write_run(options.output, run, crashed);
+    scenes::write_run(options.output, run, crashed);
     return true;
   }
   if (ended.signal != 0) {
@@ -130,16 +131,16 @@ bool carry_out(const TradeOptions& options, const std::vector<StudyRun>& runs) {
 }
 
 int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
-  const bench::Trade found = bench::merge(runs, options.output);
+  const scenes::Trade found = scenes::merge(runs, options.output);
   const fs::path folder = options.output;
-  const std::string json = bench::trade_json(found);
-  write_text((folder / "trade.csv").string(), bench::trade_csv(found));
-  write_text((folder / "trade.json").string(), json);
-  write_text((folder / "trade.html").string(), bench::trade_html(found));
-  for (const bench::SceneTrade& scene : found.scenes) {
-    write_text((folder / (scene.scene + ".svg")).string(), bench::trade_svg(scene));
+  const std::string json = scenes::trade_json(found);
+  write_file(folder / "trade.csv", scenes::trade_csv(found));
+  write_file(folder / "trade.json", json);
+  write_file(folder / "trade.html", scenes::trade_html(found));
+  for (const scenes::SceneTrade& scene : found.scenes) {
+    write_file(folder / (scene.scene + ".svg"), scenes::trade_svg(scene));
   }
-  options.print(bench::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
+  options.print(scenes::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
   options.write_json(json);
   if (found.missing.empty()) return 0;
   for (const std::string& name : found.missing) std::fprintf(stderr, "missing: %s\n", name.c_str());
@@ -152,10 +153,10 @@ int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
 }  // namespace
 
 int trade(const TradeOptions& options) {
-  const std::vector<StudyRun> all = bench::study_runs(study_of(options));
+  const std::vector<StudyRun> all = scenes::study_runs(study_of(options));
   const bool shared = !options.shard.empty();
   const std::vector<StudyRun> share =
-      shared ? bench::share_of(all, bench::parse_shard(options.shard)) : all;
+      shared ? scenes::share_of(all, scenes::parse_shard(options.shard)) : all;
   if (options.list) return list_runs(options, share);
   if (options.output.empty()) throw InputError("-o DIR is missing: the folder of the results");
   if (options.merge) return report(options, all);

@@ -17,11 +17,11 @@
 #include <map>
 #include <string>
 
-#include "bench/flags.h"
 #include "engine/base/check.h"
 #include "engine/model/frame.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
+#include "tests/fixtures/flags.h"
 #include "tests/fuzz/random_scene.h"
 
 #ifdef __GLIBC__
@@ -166,15 +166,15 @@ int soak(const Options& options) {
 
 int main(int argc, char** argv) {
   sunder::fuzz::Options options;
-  if (!sunder::bench::read_flags(argc, argv,
-                                 {{"--time", &options.time_s},
-                                  {"--scenes", &options.scenes},
-                                  {"--seed", &options.seed},
-                                  {"--out", &options.out}}) ||
-      (options.time_s > 0) == (options.scenes > 0)) {
-    std::fprintf(stderr, "usage: %s --time S | --scenes N [--seed FIRST] [--out FOLDER]\n",
-                 argv[0]);
-    return 2;
+  if (!sunder::read_flags(argc, argv,
+                          {{"--time", &options.time_s, "S"},
+                           {"--scenes", &options.scenes, "N"},
+                           {"--seed", &options.seed, "FIRST"},
+                           {"--out", &options.out, "FOLDER"}}))
+    return sunder::kUsageError;
+  if ((options.time_s > 0) == (options.scenes > 0)) {
+    std::fprintf(stderr, "give either --time or --scenes\n");
+    return sunder::kUsageError;
   }
   return sunder::fuzz::soak(options);
 }

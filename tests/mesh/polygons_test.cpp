@@ -2,11 +2,11 @@
 // meshes make more and more triangles of worse shape.
 #include <gtest/gtest.h>
 
-#include "bench/triangles.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/prism.h"
 #include "engine/geometry/repair/repair.h"
 #include "engine/io/mesh/mesh_reader.h"
+#include "tests/fixtures/triangles.h"
 
 namespace sunder {
 namespace {
@@ -30,13 +30,13 @@ std::size_t upward_faces(const std::vector<PolygonMesh>& pieces) {
 
 TEST(Polygons, AHexagonSplitTwiceIsFourPolygonsAndThriceAsManyTriangles) {
   std::vector<PolygonMesh> polygons = {hexagonal_prism()};
-  std::vector<PolygonMesh> triangles = {bench::triangulated(polygons[0])};
+  std::vector<PolygonMesh> triangles = {triangulated(polygons[0])};
   EXPECT_EQ(upward_faces(triangles), 4u);
   const Vec3 normals[] = {Vec3(1, 0, 0.3).normalized(), Vec3(0.2, 0, 1).normalized()};
   for (std::size_t i = 0; i < 2; ++i) {
     const Plane plane = Plane::through(Vec3(0.05, 0, 0.02), normals[i]);
-    polygons = bench::cut_all(polygons, plane, {2 * i + 2}, false);
-    triangles = bench::cut_all(triangles, plane, {2 * i + 2}, true);
+    polygons = cut_all(polygons, plane, {2 * i + 2}, false);
+    triangles = cut_all(triangles, plane, {2 * i + 2}, true);
   }
   EXPECT_EQ(upward_faces(polygons), 4u);
   EXPECT_GE(upward_faces(triangles), 12u);
@@ -45,27 +45,27 @@ TEST(Polygons, AHexagonSplitTwiceIsFourPolygonsAndThriceAsManyTriangles) {
 TEST(Polygons, OfARepeatedlyCutTorusAreFewerThanTrianglesByAGrowingFactor) {
   const std::string file = SUNDER_ROOT "/scenes/meshes/torus.obj";
   const PolygonMesh torus = repair_mesh(read_mesh(file), file).shells.at(0);
-  std::vector<PolygonMesh> polygons = {torus}, triangles = {bench::triangulated(torus)};
-  const double volume_m3 = bench::volume_m3(polygons);
-  const std::vector<Plane> planes = bench::planes_through(bounds(torus), 6);
-  std::size_t ill_count = bench::ill_shaped(triangles);
+  std::vector<PolygonMesh> polygons = {torus}, triangles = {triangulated(torus)};
+  const double volume_m3 = total_volume_m3(polygons);
+  const std::vector<Plane> planes = planes_through(bounds(torus), 6);
+  std::size_t ill_count = ill_shaped(triangles);
   double ratio = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    polygons = bench::cut_all(polygons, planes[i], {2 * i + 2}, false);
-    triangles = bench::cut_all(triangles, planes[i], {2 * i + 2}, true);
+    polygons = cut_all(polygons, planes[i], {2 * i + 2}, false);
+    triangles = cut_all(triangles, planes[i], {2 * i + 2}, true);
     ASSERT_EQ(polygons.size(), triangles.size());
     for (const PolygonMesh& piece : triangles) ASSERT_EQ(open_edges(piece), 0u);
-    EXPECT_NEAR(bench::volume_m3(polygons), volume_m3, 1e-12);
-    EXPECT_NEAR(bench::volume_m3(triangles), volume_m3, 1e-9)
+    EXPECT_NEAR(total_volume_m3(polygons), volume_m3, 1e-12);
+    EXPECT_NEAR(total_volume_m3(triangles), volume_m3, 1e-9)
         << "both cutters must make the same volumes";
-    const double now = double(bench::face_count(triangles)) / double(bench::face_count(polygons));
+    const double now = double(face_count(triangles)) / double(face_count(polygons));
     EXPECT_GT(now, ratio);
-    EXPECT_GE(bench::ill_shaped(triangles), ill_count);
+    EXPECT_GE(ill_shaped(triangles), ill_count);
     ratio = now;
-    ill_count = bench::ill_shaped(triangles);
+    ill_count = ill_shaped(triangles);
   }
   EXPECT_GT(ratio, 1.5);
-  EXPECT_GT(ill_count, 2 * bench::ill_shaped(polygons));
+  EXPECT_GT(ill_count, 2 * ill_shaped(polygons));
 }
 
 }  // namespace

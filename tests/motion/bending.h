@@ -21,7 +21,7 @@ namespace sunder::tests {
 inline constexpr MaterialIndex kDuctile{0};
 
 /// Physics that counts plastic joints and records the bodies of each joint.
-class JointRecorder final : public bench::ForwardingPhysics {
+class JointRecorder final : public ForwardingPhysics {
  public:
   using ForwardingPhysics::ForwardingPhysics;
   JointId join(const JointDesc& joint) override {

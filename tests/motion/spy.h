@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/truths/forwarding_physics.h"
+#include "tests/fixtures/forwarding_physics.h"
 
 namespace sunder::tests {
 
@@ -17,7 +17,7 @@ struct Motions {
   Vec3 momentum = Vec3::Zero(), spin = Vec3::Zero();
 };
 
-class SpyPhysics final : public bench::ForwardingPhysics {
+class SpyPhysics final : public ForwardingPhysics {
  public:
   /// Sums before the first and after the last break of a step.
   struct Balance {

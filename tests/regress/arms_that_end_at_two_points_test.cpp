@@ -3,7 +3,7 @@
 // as soon as the bodies moved; opposite impulses at two points add a torque. Fixed in dc4d495.
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::solver {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::solver {
 namespace {

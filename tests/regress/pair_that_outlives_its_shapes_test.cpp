@@ -4,7 +4,7 @@
 // boxes separate, whether the narrow phase needs it or not.
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

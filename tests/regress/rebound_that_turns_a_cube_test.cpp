@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

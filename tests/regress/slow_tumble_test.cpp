@@ -3,7 +3,7 @@
 // steps. Fixed in 34ec447.
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::solver {
 namespace {

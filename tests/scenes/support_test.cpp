@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/forwarding_physics.h"
 #include "engine/world/simulation.h"
 #include "fracture/pattern_breaker.h"
 #include "scenes/load.h"
 #include "solver/rigid/rigid_physics.h"
+#include "tests/fixtures/forwarding_physics.h"
 
 namespace sunder::tests {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 constexpr double kMaxSeparation_m = 0.01, kMaxRestMotion_m = 0.01, kMinSupportNormal_y = -0.5;
 
 /// Physics that records its bodies and joints.
-class ObservedPhysics final : public bench::ForwardingPhysics {
+class ObservedPhysics final : public ForwardingPhysics {
  public:
   struct Body {
     BodyId id;

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/random.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bench/truths/rigid_world.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver {
 

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
 #include "engine/base/random.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::solver {
 namespace {

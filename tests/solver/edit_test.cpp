@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::edit_test {
 namespace {

@@ -1,8 +1,8 @@
 // Tests of a solve's energy accounting against closed forms, at every preset.
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
 #include "engine/base/random.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::solver {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

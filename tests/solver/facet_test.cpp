@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 #include "engine/model/facets.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::facet_test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::solver::impact_test {
 namespace {

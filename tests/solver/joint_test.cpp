@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/presets.h"
 #include "tests/solver/chains.h"
 
 namespace sunder::solver::joint_test {

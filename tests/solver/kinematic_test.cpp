@@ -1,9 +1,9 @@
 // Tests of kinematic bodies: closed forms of the bodies that they carry, push and throw.
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 #include "solver/planar/planar_physics.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::kinematic_test {
 namespace {

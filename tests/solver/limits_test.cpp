@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/presets.h"
 #include "solver/planar/planar_physics.h"
+#include "tests/fixtures/presets.h"
 #include "tests/solver/chains.h"
 
 namespace sunder::solver::limits_test {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "solver/rigid/collide/manifold_build.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver {
 namespace {

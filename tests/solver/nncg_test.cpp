@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::nncg_test {
 namespace {

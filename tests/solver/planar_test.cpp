@@ -1,13 +1,13 @@
 // Tests of the planar solver behind Physics, and of its refusal of bodies that are not planar.
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/hull.h"
 #include "engine/geometry/prism.h"
 #include "solver/planar/planar_physics.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::planar_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/truths/presets.h"
+#include "tests/fixtures/presets.h"
 
 namespace sunder::solver {
 

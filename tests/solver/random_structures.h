@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "bench/truths/rigid_world.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver {
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/geometry/hull.h"
 #include "solver/rigid/collide/patch.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::rubble_test {
 namespace {
@@ -19,7 +19,7 @@ constexpr std::size_t kWalls = 5;
 
 /// Adds 300 hulls of 10 to 50 cm above a pit; the mass ratio is up to 500.
 void add_rubble(RigidWorld& world, std::uint64_t seed) {
-  constexpr double kPitch_m = 0.45, kHalf_m = 1.425;  // The values of solver_bench.
+  constexpr double kPitch_m = 0.45, kHalf_m = 1.425;  // The values of `solver_bench piles`.
   world.add(W::ground());
   for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
     BodyDesc wall = W::ground(normal);

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/geometry/hull.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::similarity_test {
 namespace {

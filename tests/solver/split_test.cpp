@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
 #include "solver/rigid/contact/kernels/sweep_kernels.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::split_test {
 namespace {

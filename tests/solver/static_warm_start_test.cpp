@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/parallel.h"
+#include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::static_warm_start_test {
 namespace {

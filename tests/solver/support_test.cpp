@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/truths/rigid_world.h"
 #include "engine/base/trigonometry.h"
+#include "tests/fixtures/rigid_world.h"
 #include "tests/solver/random_structures.h"
 
 namespace sunder::solver {

@@ -1,15 +1,15 @@
 // Tests of the comparison of timings with older ones.
-#include "bench/timing/compare.h"
+#include "scenes/timing/compare.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "bench/timing/timing.h"
 #include "engine/base/check.h"
+#include "scenes/timing/timing.h"
 #include "tests/timing/planted.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 using tests::made_up_timings;
@@ -154,4 +154,4 @@ TEST(CompareTimings, PercentagesAreReadAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

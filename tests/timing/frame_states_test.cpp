@@ -1,5 +1,5 @@
 // Tests of stored states of single frames, and the comparison of runs with them.
-#include "bench/timing/frame_states.h"
+#include "scenes/timing/frame_states.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 #include "engine/base/check.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 const std::vector<std::uint64_t> kRun = {0x1111222233334444, 0x5555666677778888,
@@ -116,4 +116,4 @@ TEST(FrameStates, WholeRunsAreComparedWithTheStatesOfBench) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

@@ -1,5 +1,5 @@
 // Tests that confidence intervals of ratios contain the true ratio as often as they claim.
-#include "bench/timing/ratio.h"
+#include "scenes/timing/ratio.h"
 
 #include <cmath>
 #include <vector>
@@ -8,7 +8,7 @@
 
 #include "engine/base/random.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 TEST(RatioInterval, HasTheConfidenceOfItsOrderStatistics) {
@@ -56,4 +56,4 @@ TEST(RatioInterval, ContainsTheRatioAsOftenAsItClaims) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

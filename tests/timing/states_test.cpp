@@ -1,14 +1,14 @@
 // Tests of stored states, and the comparison of runs with them.
-#include "bench/timing/states.h"
+#include "scenes/timing/states.h"
 
 #include <gtest/gtest.h>
 
-#include "bench/timing/timing.h"
 #include "engine/base/check.h"
+#include "scenes/timing/timing.h"
 #include "tests/engine/markup.h"
 #include "tests/timing/planted.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 using tests::made_up_timings;
@@ -100,4 +100,4 @@ TEST(Junit, CountsFailedAndSkippedChecks) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/timing/timing.h"
-#include "bench/timing/timing_report.h"
 #include "engine/base/check.h"
+#include "scenes/timing/timing.h"
+#include "scenes/timing/timing_report.h"
 #include "tests/engine/markup.h"
 #include "tests/timing/planted.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 using tests::made_up_timings;
@@ -140,4 +140,4 @@ TEST(TimingReport, ShowsTheCostOfAFeatureAndIsWellFormed) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

@@ -1,5 +1,5 @@
 // Tests of the error between two sets of runs, on samples of known distributions.
-#include "bench/trade/errors.h"
+#include "scenes/trade/errors.h"
 
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,7 @@
 
 #include "engine/base/random.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 constexpr int kSeeds = 8, kTrials = 400;
@@ -110,4 +110,4 @@ TEST(Errors, LeaveOutQuantitiesThatOneSideLacks) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

@@ -1,5 +1,5 @@
 // Tests of the quantities measured of a run, on frames made by hand.
-#include "bench/trade/facts.h"
+#include "scenes/trade/facts.h"
 
 #include <cmath>
 #include <memory>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 const double kSize = std::sqrt(3.0);  // from the cube's centre to a corner
@@ -183,4 +183,4 @@ TEST(Facts, HaveAHashOfTheStates) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

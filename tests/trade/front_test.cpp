@@ -1,11 +1,11 @@
 // Tests of the Pareto front of a study, on points made by hand.
-#include "bench/trade/front.h"
+#include "scenes/trade/front.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 using Front = std::vector<std::size_t>;
@@ -50,4 +50,4 @@ TEST(Front, AcceptsAnErrorOfZero) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

@@ -1,17 +1,17 @@
 // Tests of reports: they list finished, missing and failed runs, and are well-formed in every case.
-#include "bench/trade/report.h"
+#include "scenes/trade/report.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "bench/trade/run_file.h"
 #include "engine/io/figures.h"
+#include "scenes/trade/run_file.h"
 #include "tests/engine/markup.h"
 #include "tests/scenes/program.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 using tests::Folder;
@@ -217,4 +217,4 @@ TEST(Report, ThePageLoadsNoOtherFile) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

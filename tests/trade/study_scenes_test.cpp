@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/trade/facts.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
+#include "scenes/trade/facts.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 const std::vector<std::string> kScenes = {"blast", "collapse", "glass", "pile", "stack", "wall"};
@@ -18,7 +18,7 @@ const std::vector<std::string> kScenes = {"blast", "collapse", "glass", "pile", 
 Scene scene(const std::string& name, const std::string& preset,
             const std::vector<std::string>& set = {}) {
   const std::string file = std::string(SUNDER_ROOT "/bench/trade/scenes/") + name + ".toml";
-  return scenes::load_scene(file, {preset, set});
+  return load_scene(file, {preset, set});
 }
 
 TEST(StudyScenes, LastTwoSecondsAtMost) {
@@ -27,7 +27,7 @@ TEST(StudyScenes, LastTwoSecondsAtMost) {
 
 TEST(StudyScenes, BeginWithoutOverlaps) {
   for (const std::string& name : kScenes) {
-    const auto source = scenes::make_simulation(scene(name, "accurate"));
+    const auto source = make_simulation(scene(name, "accurate"));
     source->next();
     const FramePtr frame = source->next();
     for (const float depth_m : frame->report.penetrations_m) EXPECT_LT(depth_m, 1e-3f) << name;
@@ -37,8 +37,7 @@ TEST(StudyScenes, BeginWithoutOverlaps) {
 TEST(StudyScenes, DifferBySeedWhereTheyBreak) {
   for (const std::string& name : kScenes) {
     const auto facts = [&](const char* seed) {
-      const auto source =
-          scenes::make_simulation(scene(name, "draft", {seed, "scene.duration_s=0.8"}));
+      const auto source = make_simulation(scene(name, "draft", {seed, "scene.duration_s=0.8"}));
       FactsSink sink;
       while (const FramePtr frame = source->next()) sink.take(frame);
       return sink.facts();
@@ -52,7 +51,7 @@ TEST(StudyScenes, DifferBySeedWhereTheyBreak) {
 TEST(StudyScenes, StacksSlideAsFarAsFrictionAllows) {
   const double friction = std::sqrt(0.3 * 0.75);  // geometric mean of ground and concrete
   for (const auto& [preset, off] : {std::pair("accurate", 0.01), {"reference", 0.0025}}) {
-    const auto source = scenes::make_simulation(scene("stack", preset));
+    const auto source = make_simulation(scene("stack", preset));
     const FramePtr first = source->next();
     FramePtr last;
     while (FramePtr frame = source->next()) last = std::move(frame);
@@ -68,4 +67,4 @@ TEST(StudyScenes, StacksSlideAsFarAsFrictionAllows) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

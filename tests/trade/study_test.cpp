@@ -1,5 +1,5 @@
 // Tests of a study, which is the same list of runs for every worker, and of the files of runs.
-#include "bench/trade/study.h"
+#include "scenes/trade/study.h"
 
 #include <algorithm>
 #include <fstream>
@@ -9,13 +9,13 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/trade/run_file.h"
 #include "engine/base/check.h"
 #include "scenes/file/schema.h"
 #include "scenes/file/text_file.h"
+#include "scenes/trade/run_file.h"
 #include "tests/scenes/program.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 using tests::Folder;
@@ -47,7 +47,7 @@ TEST(Points, TheGridHasTwelvePointsWithEveryPresetAndAFinerLimit) {
   const std::vector<StudyPoint> points = default_points();
   ASSERT_EQ(points.size(), 13u);
   EXPECT_TRUE(points.back().is_limit());
-  for (const scenes::Preset& preset : scenes::presets()) {
+  for (const Preset& preset : presets()) {
     EXPECT_EQ(std::count_if(points.begin(), points.end(),
                             [&](const StudyPoint& point) {
                               return point.is_preset() && point.name == preset.name;
@@ -69,9 +69,9 @@ TEST(Points, TheGridHasTwelvePointsWithEveryPresetAndAFinerLimit) {
 }
 
 TEST(Points, APresetIsNoCheaperThanTheOneBeforeIt) {
-  const std::span<const scenes::Preset> all = scenes::presets();
+  const std::span<const Preset> all = presets();
   for (std::size_t i = 1; i < all.size(); ++i) {
-    const scenes::Preset &coarse = all[i - 1], &fine = all[i];
+    const Preset &coarse = all[i - 1], &fine = all[i];
     EXPECT_LE(fine.accuracy.dt_s, coarse.accuracy.dt_s) << fine.name << ": collisions";
     EXPECT_LE(coarse.accuracy.substeps * coarse.sweeps / coarse.accuracy.dt_s,
               fine.accuracy.substeps * fine.sweeps / fine.accuracy.dt_s)
@@ -192,10 +192,10 @@ TEST(RunFile, DoesNotDependOnTheTimes) {
   const std::string file = folder / "runs/stack/draft-1.json";
   Ran ran = some_facts();
   write_run(folder.path(), short_run(), ran);
-  const std::string text = scenes::read_text(file);
+  const std::string text = read_text(file);
   ran.time = {99, 98, 97};
   write_run(folder.path(), short_run(), ran);
-  EXPECT_EQ(scenes::read_text(file), text);
+  EXPECT_EQ(read_text(file), text);
 }
 
 TEST(RunFile, OfAnotherStudyIsDoneAgain) {
@@ -283,4 +283,4 @@ TEST(CarryOut, AFailedRunIsAResult) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

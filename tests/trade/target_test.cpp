@@ -10,7 +10,7 @@
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
 
-namespace sunder::bench {
+namespace sunder::scenes {
 namespace {
 
 constexpr double kGap_m = 1e-3;  // initial gap below each body
@@ -43,8 +43,8 @@ double reached(const std::string& solids, double target_m, const std::string& dt
   char target[40];
   std::snprintf(target, sizeof target, "accuracy.error_target_m=%g", target_m);
   const std::string text = "[scene]\ndescription = \"x\"\nduration_s = 3\n[accuracy]\n" + solids;
-  const auto simulation = scenes::make_simulation(
-      scenes::parse_scene(text, "stack.toml", {"realtime", {target, "accuracy.dt_s=" + dt_s}}));
+  const auto simulation = make_simulation(
+      parse_scene(text, "stack.toml", {"realtime", {target, "accuracy.dt_s=" + dt_s}}));
   FramePtr last;
   while (FramePtr frame = simulation->next()) last = std::move(frame);
   EXPECT_EQ(last->report.counts.awake, 0u);
@@ -75,4 +75,4 @@ TEST(Target, IsKeptAtAnyStep) {
 }
 
 }  // namespace
-}  // namespace sunder::bench
+}  // namespace sunder::scenes

@@ -1,8 +1,0 @@
-// Default grid of points of a study, compiled in from grid.txt (sunder_embed).
-#pragma once
-
-namespace sunder::bench::grid {
-
-extern const char* const grid_txt;
-
-}  // namespace sunder::bench::grid

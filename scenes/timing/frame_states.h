@@ -1,0 +1,42 @@
+// Comparison of every frame of a run with stored hashes, to find the first frame that differs.
+// Stored hashes (hash_book.h) have the key frames/NAME/PRESET and four hexadecimal digits of the
+// state hash of each frame. Few digits suffice, because a run that has diverged stays different.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/load.h"
+#include "scenes/timing/hash_book.h"
+#include "scenes/timing/verdict.h"
+
+namespace sunder::scenes {
+
+/// Returns the stored digits for the state hashes of a run's frames.
+std::string frame_digits(std::span<const std::uint64_t> run);
+/// Returns the first known frame that the run lacks or that differs; nothing if all are equal.
+std::optional<int> first_difference(const std::string& known, std::span<const std::uint64_t> run);
+
+/// A scene that is simulated and compared with its stored hashes.
+struct GuardedRun {
+  std::string name;   ///< Name in the keys of stored hashes.
+  std::string scene;  ///< File or name.
+  LoadOptions load;
+  int frame = 0;  ///< Last frame to store if nothing breaks, unless the script begins later.
+};
+
+/// Simulates the scene at every preset with stored hashes and returns a verdict for each:
+/// "simulation at realtime" and so on. Without any stored hashes the only verdict is a failure.
+/// `whole`: the state hashes of `sunder bench` are checked as well, if the scene was not changed by
+/// --set. `file` is the name of the file of hashes in messages. Throws InputError.
+std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& book,
+                                    const std::string& file, bool whole);
+
+/// Stores the hashes of the run at every preset, up to 50 frames (at the run's own preset) or 8
+/// frames (at others) after the first break that is not before the script's first action. Throws
+/// InputError.
+void accept_frames(const GuardedRun& run, StateHashes& book);
+
+}  // namespace sunder::scenes

@@ -1,0 +1,105 @@
+#include "scenes/trade/merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/io/statistics.h"
+#include "scenes/trade/front.h"
+#include "scenes/trade/run_file.h"
+
+namespace sunder::scenes {
+namespace {
+
+/// Existing runs of a point on one scene.
+struct PointRuns {
+  StudyPoint point;
+  std::vector<Facts> facts;  ///< Facts of the runs that did not fail.
+  std::vector<double> cpu_ms, wall_ms;
+  std::string failed;
+};
+
+struct SceneRuns {
+  std::string scene;
+  std::vector<PointRuns> points;
+};
+
+PointRuns& find_or_add(std::vector<SceneRuns>& scenes, const StudyRun& run) {
+  if (scenes.empty() || scenes.back().scene != run.scene) scenes.push_back({run.scene, {}});
+  std::vector<PointRuns>& points = scenes.back().points;
+  const auto at = std::find_if(points.begin(), points.end(), [&](const PointRuns& found) {
+    return found.point.name == run.point.name;
+  });
+  return at != points.end() ? *at : points.emplace_back(PointRuns{run.point, {}, {}, {}, {}});
+}
+
+PointTrade evaluate(const PointRuns& found, std::span<const Facts> limit) {
+  PointTrade trade;
+  trade.point = found.point;
+  trade.runs = static_cast<int>(found.cpu_ms.size());
+  trade.cost_ms = quantile(found.cpu_ms, 0.5);
+  trade.wall_ms = quantile(found.wall_ms, 0.5);
+  trade.failed = found.failed;
+  if (!limit.empty() && !found.facts.empty() && !found.point.is_limit()) {
+    trade.errors = trade_errors(found.facts, limit);
+    trade.error = worst(trade.errors);
+  }
+  if (!found.failed.empty()) trade.error = std::numeric_limits<double>::infinity();
+  return trade;
+}
+
+/// Finds the front among the points with a finite error, except the limit, and costs relative to
+/// it.
+void find_front(std::vector<PointTrade>& trades) {
+  std::vector<TradePoint> points;
+  std::vector<PointTrade*> trade_at;
+  for (PointTrade& trade : trades) {
+    if (trade.point.is_limit() || !trade.error || !std::isfinite(*trade.error)) continue;
+    points.push_back({trade.point.name, trade.point.is_preset(), trade.cost_ms, *trade.error});
+    trade_at.push_back(&trade);
+  }
+  for (const std::size_t i : pareto_front(points)) trade_at[i]->on_front = true;
+  for (std::size_t i = 0; i < points.size(); ++i) trade_at[i]->over_front = over_front(points, i);
+}
+
+SceneTrade evaluate(const SceneRuns& found) {
+  SceneTrade scene;
+  scene.scene = found.scene;
+  std::span<const Facts> limit;
+  for (const PointRuns& point : found.points) {
+    if (point.point.is_limit()) limit = point.facts;
+  }
+  for (const PointRuns& point : found.points) {
+    if (!point.cpu_ms.empty()) scene.points.push_back(evaluate(point, limit));
+  }
+  find_front(scene.points);
+  return scene;
+}
+
+}  // namespace
+
+Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder) {
+  Trade trade;
+  trade.runs = runs.size();
+  std::vector<SceneRuns> scenes;
+  for (const StudyRun& run : runs) {
+    PointRuns& found = find_or_add(scenes, run);
+    const StoredRun stored = read_run(folder, run);
+    if (!stored.missing.empty()) {
+      trade.missing.push_back(run.name() + (stored.damaged ? " (" + stored.missing + ")" : ""));
+      continue;
+    }
+    const RunResult& result = stored.ran.result;
+    found.cpu_ms.push_back(stored.ran.time.cpu_ms);
+    found.wall_ms.push_back(stored.ran.time.wall_ms);
+    if (result.failed.empty()) {
+      found.facts.push_back(result.facts);
+    } else if (found.failed.empty()) {
+      found.failed = "seed " + std::to_string(run.seed) + ": " + result.failed;
+    }
+  }
+  for (const SceneRuns& scene : scenes) trade.scenes.push_back(evaluate(scene));
+  return trade;
+}
+
+}  // namespace sunder::scenes

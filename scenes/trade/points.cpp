@@ -1,0 +1,102 @@
+#include "scenes/trade/points.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <sstream>
+
+#include "engine/base/check.h"
+#include "scenes/file/schema.h"
+#include "scenes/trade/grid.h"
+
+namespace sunder::scenes {
+namespace {
+
+bool may_be_in_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || std::string("._+=-").find(c) < 5;
+}
+
+void check_name(const std::string& name, const std::string& where) {
+  if (!std::all_of(name.begin(), name.end(), may_be_in_name) || name.front() == '.') {
+    throw InputError(where + ": '" + name +
+                     "' is not a valid name of a point; allowed: letters, digits and . _ + = -");
+  }
+}
+
+void check_preset(const std::string& preset, const std::string& where) {
+  std::string names;
+  for (const Preset& known : presets()) {
+    if (known.name == preset) return;
+    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  }
+  throw InputError(where + ": unknown preset '" + preset + "'; allowed: " + names);
+}
+
+/// Parses a line; the point has no name if the line is empty.
+StudyPoint parse_line(const std::string& line, const std::string& where) {
+  std::istringstream words(line.substr(0, line.find('#')));
+  StudyPoint point;
+  if (!(words >> point.name)) return {};
+  check_name(point.name, where);
+  if (!(words >> point.preset)) {
+    throw InputError(where + ": expected NAME PRESET KEY=VALUE...");
+  }
+  check_preset(point.preset, where);
+  for (std::string word; words >> word;) {
+    if (word.find('=') == std::string::npos) {
+      throw InputError(where + ": expected KEY=VALUE, got '" + word + "'");
+    }
+    point.set.push_back(word);
+  }
+  return point;
+}
+
+/// Returns the points in the order of the text, except that the limit is last.
+std::vector<StudyPoint> parse_lines(const std::string& text, const std::string& file) {
+  std::vector<StudyPoint> points;
+  std::set<std::string> seen;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string where = file + ":" + std::to_string(++number);
+    StudyPoint point = parse_line(line, where);
+    if (point.name.empty()) continue;
+    if (!seen.insert(point.name).second) {
+      throw InputError(where + ": duplicate point '" + point.name + "'");
+    }
+    points.push_back(std::move(point));
+  }
+  std::stable_partition(points.begin(), points.end(),
+                        [](const StudyPoint& point) { return !point.is_limit(); });
+  return points;
+}
+
+}  // namespace
+
+std::vector<StudyPoint> parse_points(const std::string& text, const std::string& file) {
+  std::vector<StudyPoint> points = parse_lines(text, file);
+  if (points.empty() || points.front().is_limit()) {
+    throw InputError(file + ": has no point besides the limit; add at least one");
+  }
+  if (!points.back().is_limit()) points.push_back(default_points().back());
+  return points;
+}
+
+std::vector<StudyPoint> default_points() { return parse_lines(grid::grid_txt, "grid.txt"); }
+
+void add_switch(std::vector<StudyPoint>& points, const std::string& assignment) {
+  const std::string where = "--switch " + assignment;
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == assignment.size()) {
+    throw InputError(where + ": expected KEY=VALUE");
+  }
+  check_name(assignment, where);
+  std::vector<StudyPoint> switched;
+  for (const StudyPoint& point : points) {
+    if (!point.is_preset()) continue;
+    switched.push_back({point.name + "+" + assignment, point.preset, {assignment}});
+  }
+  points.insert(points.end() - 1, switched.begin(), switched.end());
+}
+
+}  // namespace sunder::scenes
