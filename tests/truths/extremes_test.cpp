@@ -35,7 +35,7 @@ TEST(Extremes, WarnWhereTheirBoundIsAboveTheMark) {
   for (const Truth& extreme : extremes()) {
     if (extreme.is_timing) continue;
     for (std::size_t preset = 0; preset < kPresets.size(); ++preset) {
-      if (extreme.bounds[preset] <= 1.5 * extreme.mark) continue;
+      if (extreme.bounds[preset] <= extreme.mark) continue;
       EXPECT_NE(extreme.told(kPresets[preset]), "")
           << extreme.what << ", " << kPresets[preset].name;
     }
