@@ -91,6 +91,14 @@ TEST(Golden, EveryTextureAndEveryPassIsInAGolden) {
   EXPECT_EQ(view_modes.size(), 10u);
 }
 
+TEST(Golden, StoredFramesAreSmall) {
+  std::uintmax_t bytes = 0;
+  for (const char* extension : {".frame", ".view"}) {
+    for (const fs::path& file : goldens(extension)) bytes += fs::file_size(file);
+  }
+  EXPECT_LE(bytes, 4'000'000u) << "record large frames by `sunder golden record --no-frame`";
+}
+
 TEST(Golden, HashesAreOfEveryPresetOfEverySimulatedGoldenAndOfNoOther) {
   std::set<std::string> expected, found;
   for (const fs::path& file : goldens(".json")) {
