@@ -317,8 +317,7 @@ void add_golden(CLI::App& program, Command& chosen) {
     return add_golden(*golden, chosen, name, help, work);
   };
   for (auto& command :
-       {add("test",
-            "Draw the stored frames, simulate their scenes, and compare both with what is stored",
+       {add("test", "Draw the frames, simulate their scenes, and compare both with what is stored",
             golden_test),
         add("report", "As test, and write report.html with all pictures", golden_report)}) {
     command.app->add_option("NAME", command.options->names, "Goldens; all by default");
@@ -345,6 +344,8 @@ void add_golden(CLI::App& program, Command& chosen) {
       ->required();
   record.app->add_option("FRAME", record.options->frame, "Index of the frame in the scene")
       ->check(from_to(0, kMaxFrames));
+  record.app->add_flag("--no-frame", record.options->no_frame,
+                       "Store no geometry; draw the picture from the simulation");
   record.app->add_option("--size", record.options->size, "Pixels")
       ->type_name("WxH")
       ->capture_default_str();

@@ -132,6 +132,7 @@ struct GoldenOptions : CommonOptions {
   std::string scene;  ///< File or name of a scene, or file of a stored frame.
   scenes::LoadOptions load;
   int frame = -1;
+  bool no_frame = false;  ///< True to draw the picture from the simulation.
   std::string size = "640x360";
   render::RenderOptions render;
 };

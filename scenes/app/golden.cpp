@@ -1,7 +1,8 @@
 // sunder golden: regression tests of drawing, views and simulation. A golden is a stored frame and
 // its picture, NAME.frame, NAME.png and NAME.json in tests/golden, and state hashes of the run that
-// the frame is from, in hashes.txt. A test fails if the drawing of the frame, the camera and
-// colours of its scene, or the states of the run change.
+// the frame is from, in hashes.txt. A golden of a large scene has NAME.view in place of NAME.frame,
+// the frame without geometry, and its picture is drawn from the run. A test fails if the drawing of
+// the frame, the camera and colours of its scene, or the states of the run change.
 //
 // Read first: golden_test(). Only `accept` changes the stored pictures and states.
 #include <algorithm>
@@ -38,14 +39,8 @@ class Drawer {
  public:
   explicit Drawer(std::string gl) : gl_(std::move(gl)) {}
 
-  render::Image draw(const Golden& golden) {
-    FramePtr frame = read_frame(golden.frame_file());
-    if (!golden.is_simulated() && !golden.load.set.empty()) {
-      auto seen = std::make_shared<Frame>(*frame);
-      scenes::change_view(seen->view, golden.load.set, golden.file(".json").string());
-      frame = std::move(seen);
-    }
-    return renderer(golden).draw(*frame);
+  render::Image draw(const Golden& golden, const Frame& frame) {
+    return renderer(golden).draw(frame);
   }
   std::string description(const Golden& golden) { return renderer(golden).description(); }
 
@@ -72,12 +67,25 @@ std::string size_of(const render::Image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height);
 }
 
-/// Draws a golden and compares the picture with the baseline.
-Verdict check_drawing(Drawer& drawer, GoldenResult& result) {
+/// Returns the stored frame of a golden, with the golden's changes of the view.
+FramePtr stored_frame(const Golden& golden) {
+  const FramePtr frame = read_frame(golden.frame_file());
+  if (golden.is_simulated() || golden.load.set.empty()) return frame;
+  auto seen = std::make_shared<Frame>(*frame);
+  scenes::change_view(seen->view, golden.load.set, golden.file(".json").string());
+  return seen;
+}
+
+/// Draws a frame of a golden and compares the picture with the baseline. If `fault` is not empty,
+/// it names another fault that changes the picture, and a different picture is not judged.
+Verdict check_drawing(Drawer& drawer, GoldenResult& result, const Frame& frame,
+                      const std::string& fault = "") {
+  const Stopwatch watch;
   const Golden& golden = result.golden;
   Verdict verdict{golden.name, "drawing", Outcome::kFailed, {}};
-  result.actual = drawer.draw(golden);
+  result.actual = drawer.draw(golden, frame);
   result.renderer = drawer.description(golden);
+  verdict.seconds = 1e-3 * watch.ms();
   if (!fs::exists(golden.picture_file())) {
     verdict.text = "has no baseline; check the picture, then run: " + golden.accept_command();
     return verdict;
@@ -93,6 +101,11 @@ Verdict check_drawing(Drawer& drawer, GoldenResult& result) {
   result.difference = render::compare(result.baseline, result.actual);
   const bool passes = result.difference.passes(golden.thresholds);
   if (passes) verdict.outcome = Outcome::kPassed;
+  if (!passes && !fault.empty()) {
+    verdict.outcome = Outcome::kSkipped;
+    verdict.text = "is not judged, because no frame is stored and the " + fault + " differs";
+    return verdict;
+  }
   char text[200];
   std::snprintf(text, sizeof text, "%s: FLIP mean %.4f of %.4f, worst window %d of %d pixels",
                 passes ? "similar" : "differs", result.difference.flip_mean,
@@ -102,7 +115,7 @@ Verdict check_drawing(Drawer& drawer, GoldenResult& result) {
   return verdict;
 }
 
-/// Checks that the stored frame, which is drawn, still has the camera and colours of its scene.
+/// Checks that the stored frame still has the camera and colours of its scene.
 Verdict check_view(const Golden& golden) {
   const Stopwatch watch;
   const std::string other = view_differences(*read_frame(golden.frame_file()),
@@ -110,10 +123,47 @@ Verdict check_view(const Golden& golden) {
   Verdict verdict{golden.name, "view", Outcome::kPassed, "equal to the stored frame"};
   if (!other.empty()) {
     verdict.outcome = Outcome::kFailed;
-    verdict.text = "of the scene differs from the stored frame that is drawn: " + other;
+    verdict.text = "of the scene differs from the stored frame: " + other;
   }
   verdict.seconds = 1e-3 * watch.ms();
   return verdict;
+}
+
+/// Simulates the scene of a golden and returns its frame.
+FramePtr simulated_frame(const Golden& golden, bool quiet) {
+  Scene scene = scenes::load_scene(golden.scene_file(), golden.load);
+  const int last = last_frame(scene, golden.frame, "FRAME " + std::to_string(golden.frame));
+  Progress progress("record " + scene.name, last, quiet);
+  const render::ViewMode mode(golden.view_mode);
+  const auto simulation = make_simulation(std::move(scene), mode.needs_inspection());
+  FramePtr frame;
+  for (int i = 0; i <= last; ++i) {
+    frame = simulation->next();
+    progress.take(frame);
+  }
+  progress.finish();
+  return frame;
+}
+
+/// Compares the picture of a golden, its view and its simulation with the stored ones.
+void compare(Drawer& drawer, GoldenResult& result, const GoldenOptions& options) {
+  const Golden& golden = result.golden;
+  FramePtr frame;
+  std::string fault;
+  if (golden.is_simulated()) {
+    result.verdicts.push_back(check_view(golden));
+    const std::string book = golden.hashes_file().string();
+    scenes::FrameComparison run =
+        scenes::compare_frames(golden.run(), scenes::read_hashes(book), book, options.full);
+    if (!golden.has_frame) {
+      frame = run.frame ? run.frame : simulated_frame(golden, options.quiet);
+      if (!run.is_same) fault = "simulation";
+      if (result.verdicts.front().outcome != Outcome::kPassed) fault = "view";
+    }
+    std::ranges::move(run.verdicts, std::back_inserter(result.verdicts));
+  }
+  if (!frame) frame = stored_frame(golden);
+  result.verdicts.insert(result.verdicts.begin(), check_drawing(drawer, result, *frame, fault));
 }
 
 std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
@@ -125,16 +175,7 @@ std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
   for (const std::string& name : names) {
     GoldenResult& result = results.emplace_back();
     result.golden = read_golden(options.folder, name);
-    const Stopwatch watch;
-    result.verdicts.push_back(check_drawing(drawer, result));
-    result.verdicts.back().seconds = 1e-3 * watch.ms();
-    if (result.golden.is_simulated()) {
-      result.verdicts.push_back(check_view(result.golden));
-      const std::string book = result.golden.hashes_file().string();
-      const auto verdicts = scenes::compare_frames(result.golden.run(), scenes::read_hashes(book),
-                                                   book, options.full);
-      result.verdicts.insert(result.verdicts.end(), verdicts.begin(), verdicts.end());
-    }
+    compare(drawer, result, options);
     options.print((result.passed() ? "pass " : "FAIL ") + name + ": " + result.sentence() + "\n");
     if (!result.passed()) failed += (failed.empty() ? "" : " ") + name;
     if (!result.drawing_passed()) {
@@ -170,20 +211,10 @@ void check_name(const std::string& name) {
   throw InputError("golden record \"" + name + "\": a name may have only letters, digits, _ and -");
 }
 
-/// Simulates the scene of a golden and returns its frame.
-Frame simulated_frame(const Golden& golden, bool quiet) {
-  Scene scene = scenes::load_scene(golden.scene_file(), golden.load);
-  const int last = last_frame(scene, golden.frame, "FRAME " + std::to_string(golden.frame));
-  Progress progress("record " + scene.name, last, quiet);
-  const render::ViewMode mode(golden.view_mode);
-  const auto simulation = make_simulation(std::move(scene), mode.needs_inspection());
-  FramePtr frame;
-  for (int i = 0; i <= last; ++i) {
-    frame = simulation->next();
-    progress.take(frame);
-  }
-  progress.finish();
-  return without_unused_meshes(*frame);
+/// Stores the frame of a golden, or what is stored in its place.
+void store_frame(const Golden& golden, const Frame& frame) {
+  write_frame(golden.frame_file(), golden.has_frame ? frame : without_geometry(frame));
+  fs::remove(golden.file(golden.has_frame ? ".view" : ".frame"));
 }
 
 }  // namespace
@@ -220,8 +251,11 @@ int golden_accept(const GoldenOptions& options) {
     std::string message = "drawing unchanged";
     const bool has_other_view =
         golden.is_simulated() && check_view(golden).outcome != Outcome::kPassed;
-    if (has_other_view) write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
-    if (check_drawing(drawer, result).outcome != Outcome::kPassed || golden.hash.empty()) {
+    FramePtr frame;
+    if (has_other_view || !golden.has_frame) frame = simulated_frame(golden, options.quiet);
+    if (has_other_view) store_frame(golden, *frame);
+    if (golden.has_frame) frame = stored_frame(golden);
+    if (check_drawing(drawer, result, *frame).outcome != Outcome::kPassed || golden.hash.empty()) {
       golden.renderer = result.renderer;
       golden.cpu = cpu_name();
       golden.hash = pixel_hash(result.actual);
@@ -229,7 +263,7 @@ int golden_accept(const GoldenOptions& options) {
       write_golden(golden);
       message = "drawing " + golden.hash;
     }
-    if (has_other_view) message += ", new frame";
+    if (has_other_view) message += golden.has_frame ? ", new frame" : ", new view";
     if (golden.is_simulated()) {
       const std::string file = golden.hashes_file().string();
       const scenes::StateHashes before = scenes::read_hashes(file);
@@ -262,18 +296,25 @@ int golden_record(const GoldenOptions& options) {
     golden.scene =
         fs::proximate(fs::absolute(options.scene), fs::absolute(options.folder)).string();
   }
+  if (options.no_frame &&
+      (!golden.is_simulated() || render::ViewMode(golden.view_mode).needs_inspection())) {
+    throw InputError("golden record " + golden.name + " " + options.scene +
+                     ": --no-frame does not apply to a stored frame or to --view-mode " +
+                     golden.view_mode);
+  }
   fs::create_directories(options.folder);
   if (golden.is_simulated()) {
     if (options.frame < 0)
       throw InputError("golden record " + golden.name + " " + options.scene +
                        ": FRAME is missing; give the index of a frame of the scene");
     golden.frame = options.frame;
-    write_frame(golden.frame_file(), simulated_frame(golden, options.quiet));
+    golden.has_frame = !options.no_frame;
+    store_frame(golden, *simulated_frame(golden, options.quiet));
   } else {
     if (options.frame >= 0)
       throw InputError("golden record " + golden.name + " " + options.scene +
                        ": a stored frame has no other frames; remove FRAME");
-    Drawer(options.gl).draw(golden);  // throws if the frame cannot be drawn
+    Drawer(options.gl).draw(golden, *stored_frame(golden));  // throws if the frame cannot be drawn
   }
   write_golden(golden);
   options.print("recorded " + golden.file(".json").string() +

@@ -102,7 +102,7 @@ std::string Golden::scene_file() const {
 }
 
 fs::path Golden::frame_file() const {
-  return is_simulated() ? file(".frame") : fs::path(scene_file());
+  return is_simulated() ? file(has_frame ? ".frame" : ".view") : fs::path(scene_file());
 }
 
 std::string accept_command(const fs::path& folder, const std::string& names) {
@@ -119,6 +119,7 @@ std::string Golden::command() const {
   text += " --size " + std::to_string(width) + "x" + std::to_string(height);
   if (view_mode != Golden().view_mode) text += " --view-mode " + view_mode;
   if (hud) text += " --hud";
+  if (!has_frame) text += " --no-frame";
   if (folder != GoldenOptions().folder) text += " --folder " + quoted(folder.string());
   return text + " && " + accept_command();
 }
@@ -144,6 +145,7 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
   golden.height = whole(figures, "/height", file, 1, kMaxSide_px);
   golden.view_mode = value<std::string>(figures, "/view_mode", file);
   golden.hud = value<bool>(figures, "/hud", file);
+  golden.has_frame = !fs::exists(golden.file(".view"));
   golden.thresholds.flip_mean = value<double>(figures, "/thresholds/flip_mean", file);
   golden.thresholds.window_pixels =
       whole(figures, "/thresholds/window_pixels", file, 0, std::numeric_limits<int>::max());
@@ -266,19 +268,24 @@ std::string pixel_hash(const render::Image& image) {
   return text;
 }
 
-Frame without_unused_meshes(const Frame& frame) {
-  Frame smaller = frame;
-  MeshStore used;
-  std::vector<MeshIndex> new_of_old(frame.meshes->size());
-  for (Instance& instance : smaller.instances) {
-    MeshIndex& index = new_of_old[instance.mesh.value];
-    if (index.none()) {
-      index = MeshIndex(used.size());
-      used.push_back((*frame.meshes)[instance.mesh.value]);
-    }
-    instance.mesh = index;
+Frame without_geometry(const Frame& frame) {
+  Frame smaller;
+  smaller.time_s = frame.time_s;
+  smaller.view = frame.view;
+  smaller.materials = frame.materials;
+  smaller.appearances = frame.appearances;
+  for (const FrameBody& body : frame.bodies) smaller.bodies.emplace_back().key = body.key;
+  MeshStore meshes;  // an empty one for each material
+  for (std::size_t i = 0; i < frame.materials->size(); ++i) {
+    Mesh empty;
+    empty.material = MaterialIndex(i);
+    meshes.push_back(std::make_shared<const Mesh>(std::move(empty)));
   }
-  smaller.meshes = std::make_shared<const MeshStore>(std::move(used));
+  smaller.meshes = std::make_shared<const MeshStore>(std::move(meshes));
+  for (const Instance& instance : frame.instances) {
+    const MaterialIndex material = (*frame.meshes)[instance.mesh.value]->material;
+    smaller.instances.push_back({MeshIndex(material.value), instance.body});
+  }
   return smaller;
 }
 

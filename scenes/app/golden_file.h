@@ -26,6 +26,8 @@ struct Golden {
   int height = 360;
   std::string view_mode = "materials";  ///< A view mode that needs an Inspection stores one.
   bool hud = false;
+  /// False for a golden of a scene that is drawn from the simulation; it has NAME.view.
+  bool has_frame = true;
   render::Thresholds thresholds;
   std::string hash;      ///< Hash of the baseline's pixels.
   std::string renderer;  ///< Renderer that drew the baseline.
@@ -38,9 +40,10 @@ struct Golden {
   bool is_simulated() const { return !scene.ends_with(".frame"); }
   /// Returns the path of the file `scene` if there is one, otherwise `scene` itself, a name.
   std::string scene_file() const;
+  /// Returns the file of the stored frame, or of the frame without geometry if none is stored.
   std::filesystem::path frame_file() const;
   /// Returns the run whose states are compared with the stored ones.
-  scenes::GuardedRun run() const { return {name, scene_file(), load, frame}; }
+  scenes::GuardedRun run() const { return {name, scene_file(), load, frame, !has_frame}; }
   /// Returns the shell commands that make the golden again.
   std::string command() const;
   std::string accept_command() const;
@@ -78,7 +81,7 @@ std::string format_results(const std::vector<GoldenResult>& results);
 std::string view_differences(const Frame& stored, const Scene& scene);
 /// Returns a hash of size and pixels as 16 hexadecimal digits.
 std::string pixel_hash(const render::Image& image);
-/// Returns a frame without the meshes that no instance shows, for a smaller file.
-Frame without_unused_meshes(const Frame& frame);
+/// Returns what view_differences() needs of a frame, for a smaller file.
+Frame without_geometry(const Frame& frame);
 
 }  // namespace sunder::app

@@ -84,17 +84,24 @@ Run run_of(const GuardedRun& run, const std::string& preset) {
   return {make_simulation(std::move(scene)), last, first_act};
 }
 
-/// Returns the hashes of frames 0 to `last`, or of all frames of a shorter scene.
-StateHash hash_frames(const GuardedRun& run, const std::string& preset, int last) {
+/// Returns the hashes of frames 0 to `last`, or of all frames of a shorter scene. Sets `frame` to
+/// GuardedRun::frame, unless the simulation ends before.
+StateHash hash_frames(const GuardedRun& run, const std::string& preset, int last, FramePtr& frame) {
   const Run setup = run_of(run, preset);
   StateHash states;
-  for (int i = 0; i <= std::min(last, setup.last); ++i) states.take(setup.simulation->next());
+  for (int i = 0; i <= std::min(last, setup.last); ++i) {
+    const FramePtr next = setup.simulation->next();
+    if (i == run.frame) frame = next;
+    states.take(next);
+  }
   return states;
 }
 
 /// Returns the digits to store for a run; a break before the script's first action does not end it.
 std::string record_digits(const GuardedRun& run, const std::string& preset) {
-  const int after = preset == run.load.preset ? kFramesAfterBreak : kFramesAfterBreakOtherPresets;
+  const bool is_own = preset == run.load.preset;
+  const int after = is_own ? kFramesAfterBreak : kFramesAfterBreakOtherPresets;
+  const int least = is_own && run.is_drawn ? run.frame : 0;
   const auto [simulation, last, first_act] = run_of(run, preset);
   StateHash states;
   int end = std::min(run.frame > first_act ? run.frame : first_act + after, last);
@@ -103,7 +110,7 @@ std::string record_digits(const GuardedRun& run, const std::string& preset) {
     const FramePtr frame = simulation->next();
     if (!has_broken && i >= first_act && !frame->breaks.empty()) {
       has_broken = true;
-      end = std::min(i + after, last);
+      end = std::min(std::max(i + after, least), last);
     }
     states.take(frame);
   }
@@ -148,9 +155,10 @@ std::optional<int> first_difference(const std::string& known, std::span<const st
   return std::nullopt;
 }
 
-std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& book,
-                                    const std::string& file, bool whole) {
-  std::vector<Verdict> verdicts;
+FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
+                               const std::string& file, bool whole) {
+  FrameComparison comparison;
+  std::vector<Verdict>& verdicts = comparison.verdicts;
   const std::string scene = scene_file(run.scene).stem().string();
   for (const std::string& preset : preset_names()) {
     const auto known = book.find(frames_key(run.name, preset));
@@ -159,7 +167,14 @@ std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& bo
     if (whole && run.load.set.empty()) all = find_stored_state(book, scene, preset, file);
     const int frames = static_cast<int>(known->second.size() / kDigits);
     const Stopwatch watch;
-    const StateHash states = hash_frames(run, preset, std::max(frames - 1, all ? all->frames : 0));
+    FramePtr frame;
+    const StateHash states =
+        hash_frames(run, preset, std::max(frames - 1, all ? all->frames : 0), frame);
+    if (preset == run.load.preset) {
+      comparison.frame = frame;
+      comparison.is_same =
+          run.frame < first_difference(known->second, states.per_frame()).value_or(frames);
+    }
     verdicts.push_back(check_digits(run, preset, known->second, states.per_frame()));
     verdicts.back().seconds = 1e-3 * watch.ms();  // includes the time for the state hash
     if (all) verdicts.push_back(check_state(run, preset, *all, states));
@@ -169,7 +184,7 @@ std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& bo
         {run.name, "simulation", Outcome::kFailed,
          "has no stored states in " + file + "; store them by `sunder golden accept`"});
   }
-  return verdicts;
+  return comparison;
 }
 
 void accept_frames(const GuardedRun& run, StateHashes& book) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model/frame.h"
 #include "scenes/load.h"
 #include "scenes/timing/hash_book.h"
 #include "scenes/timing/verdict.h"
@@ -25,18 +26,27 @@ struct GuardedRun {
   std::string scene;  ///< File or name.
   LoadOptions load;
   int frame = 0;  ///< Last frame to store if nothing breaks, unless the script begins later.
+  bool is_drawn = false;  ///< True if states are stored up to `frame` at the preset of `load`.
+};
+
+/// Results of compare_frames().
+struct FrameComparison {
+  std::vector<Verdict> verdicts;
+  /// GuardedRun::frame at the preset of GuardedRun::load; null if the simulation ended before.
+  FramePtr frame;
+  bool is_same = false;  ///< True if the states up to `frame` are equal to stored ones.
 };
 
 /// Simulates the scene at every preset with stored hashes and returns a verdict for each:
 /// "simulation at realtime" and so on. Without any stored hashes the only verdict is a failure.
 /// `whole`: the state hashes of `sunder bench` are checked as well, if the scene was not changed by
 /// --set. `file` is the name of the file of hashes in messages. Throws InputError.
-std::vector<Verdict> compare_frames(const GuardedRun& run, const StateHashes& book,
-                                    const std::string& file, bool whole);
+FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
+                               const std::string& file, bool whole);
 
 /// Stores the hashes of the run at every preset, up to 50 frames (at the run's own preset) or 8
-/// frames (at others) after the first break that is not before the script's first action. Throws
-/// InputError.
+/// frames (at others) after the first break that is not before the script's first action, and up to
+/// the frame that is drawn. Throws InputError.
 void accept_frames(const GuardedRun& run, StateHashes& book);
 
 }  // namespace sunder::scenes

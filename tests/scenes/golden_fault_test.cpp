@@ -30,12 +30,14 @@ const fs::path kGoldens = fs::path(SUNDER_ROOT) / "tests/golden";
 /// A copy of a golden under another name in a folder, for tests to change.
 class Copy {
  public:
-  Copy(const Folder& folder, const std::string& golden, const std::string& name)
+  Copy(const Folder& folder, const std::string& golden, const std::string& name,
+       const fs::path& from = kGoldens)
       : folder_(folder), name_(name) {
-    for (const char* extension : {".frame", ".png", ".json"}) {
-      fs::copy(kGoldens / (golden + extension), file(extension));
+    for (const char* extension : {".frame", ".view", ".png", ".json"}) {
+      const fs::path original = from / (golden + extension);
+      if (fs::exists(original)) fs::copy(original, file(extension));
     }
-    std::ifstream hashes(kGoldens / "hashes.txt");
+    std::ifstream hashes(from / "hashes.txt");
     std::ofstream copy(folder / "hashes.txt", std::ios::app);
     const std::string of_golden = "frames/" + golden + "/";
     for (std::string line; std::getline(hashes, line);) {
@@ -238,6 +240,28 @@ TEST(GoldenFaults, ADifferentCameraOrColorsOfTheSceneAreFoundAndNamed) {
   EXPECT_NE(view("color").find("colours of foundation"), std::string::npos) << view("color");
   EXPECT_NE(view("bricks").find("material of brick_wall."), std::string::npos) << view("bricks");
   for (const char* fault : {"eye", "color"}) EXPECT_EQ(failures.at(fault).size(), 1u) << fault;
+}
+
+TEST(GoldenFaults, WithoutAFrameADifferentPictureIsAttributedToItsCause) {
+  const Folder made, folder;
+  const std::string at = " --folder " + made.path().string();
+  ASSERT_EQ(sunder("golden record box stack 20 --no-frame --size 160x90" + at).exit_code, 0);
+  ASSERT_EQ(sunder("golden accept box" + at).exit_code, 0);
+  const auto copy = [&](const char* name) { return Copy(folder, "box", name, made.path()); };
+  copy("none").change_scene({});
+  copy("brighter").change_picture(brighter);
+  copy("rising").change_scene({"scene.gravity=[0,9.81,0]"});
+  copy("eye").change_scene({"view.eye=[1,2,9]"});
+  const std::string unjudged = "is not judged, because no frame is stored and the ";
+  const auto failures = failures_in(folder);
+  EXPECT_TRUE(failures.at("none").empty());
+  EXPECT_EQ(failures.at("brighter").size(), 1u);
+  EXPECT_TRUE(failures.at("brighter").at("drawing").starts_with("differs: "));
+  EXPECT_EQ(failures.at("rising").size(), 5u) << "the drawing, and the simulation at each preset";
+  EXPECT_EQ(failures.at("rising").at("drawing"), unjudged + "simulation differs");
+  EXPECT_EQ(failures.at("eye").size(), 2u);
+  EXPECT_EQ(failures.at("eye").at("drawing"), unjudged + "view differs");
+  EXPECT_NE(failures.at("eye").at("view").find("view.eye"), std::string::npos);
 }
 
 // Twenty runs: threads of the simulation by threads of the rasteriser, in both kinds of contexts.

@@ -91,6 +91,14 @@ TEST(Golden, EveryTextureAndEveryPassIsInAGolden) {
   EXPECT_EQ(view_modes.size(), 10u);
 }
 
+TEST(Golden, StoredFramesAreSmall) {
+  std::uintmax_t bytes = 0;
+  for (const char* extension : {".frame", ".view"}) {
+    for (const fs::path& file : goldens(extension)) bytes += fs::file_size(file);
+  }
+  EXPECT_LE(bytes, 4'000'000u) << "record large frames by `sunder golden record --no-frame`";
+}
+
 TEST(Golden, HashesAreOfEveryPresetOfEverySimulatedGoldenAndOfNoOther) {
   std::set<std::string> expected, found;
   for (const fs::path& file : goldens(".json")) {
@@ -118,14 +126,18 @@ TEST(Golden, TheReportedCommandsMakeTheSameGoldenAgain) {
                    first.path().string())
                 .exit_code,
             0);
-  ASSERT_EQ(sunder("golden accept box above --folder " + first.path().string()).exit_code, 0);
+  ASSERT_EQ(
+      sunder("golden record bare stack 3 --no-frame --size 64x48 --folder " + first.path().string())
+          .exit_code,
+      0);
+  ASSERT_EQ(sunder("golden accept box above bare --folder " + first.path().string()).exit_code, 0);
   const Outcome outcome = sunder("golden test --json - --folder " + first.path().string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json results = Json::parse(outcome.out);
   fs::copy(first.path(), second.path());
   for (const Json& golden : results["goldens"]) {
     const std::string commands = golden["remade_by"];
-    for (const char* extension : {".json", ".png", ".frame"}) {
+    for (const char* extension : {".json", ".png", ".frame", ".view"}) {
       fs::remove(first / (golden["name"].get<std::string>() + extension));
     }
     const std::size_t both = commands.find(" && sunder ");
@@ -217,6 +229,25 @@ TEST(Golden, AcceptingAnotherCameraRecordsTheFrameAgain) {
   EXPECT_EQ(sunder(test).exit_code, 0);
 }
 
+TEST(Golden, AcceptingWithoutAFrameAcceptsPictureViewAndSimulation) {
+  const Folder folder;
+  const std::string at = " --folder " + folder.path().string();
+  const std::string record = "golden record box stack 20 --size 160x90" + at;
+  ASSERT_EQ(sunder(record).exit_code, 0);
+  ASSERT_EQ(sunder(record + " --no-frame").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "box.frame")) << "it is replaced";
+  ASSERT_EQ(sunder("golden accept box" + at).exit_code, 0);
+  EXPECT_LT(fs::file_size(folder / "box.view"), 1000u);
+  Json recipe = Json::parse(scenes::read_text(folder / "box.json"));
+  recipe["set"] = {"scene.gravity=[0,9.81,0]", "view.fov_deg=30"};
+  std::ofstream(folder / "box.json") << recipe;
+  const Outcome accepted = sunder("golden accept box" + at);
+  EXPECT_TRUE(accepted.out.starts_with("accepted box: drawing ")) << accepted.out;
+  EXPECT_NE(accepted.out.find(", new view, new simulation"), std::string::npos) << accepted.out;
+  EXPECT_FALSE(fs::exists(folder / "box.frame"));
+  EXPECT_EQ(sunder("golden test" + at).exit_code, 0);
+}
+
 TEST(Golden, ABaselineOfAnotherSizeIsNamedAsThat) {
   const Folder folder;
   copy_golden("glass", folder);
@@ -264,7 +295,8 @@ TEST(Golden, RecordAcceptsAFrameOfASceneOrAStoredFrameOnly) {
   const std::string at = " --folder " + folder.path().string();
   for (const std::string& wrong : std::vector<std::string>{
            "x stack", "x " + folder / "stack.frame" + " 3", "x stack 3 --size 5", "x stack 100000",
-           "x nowhere.frame", "'x y' stack 3", "../x stack 3",
+           "x nowhere.frame", "x stack 3 --no-frame --view-mode contacts",
+           "x " + folder / "stack.frame" + " --no-frame", "'x y' stack 3", "../x stack 3",
            "x " + folder / "stack.frame" + " --set scene.gravity=[0,0,0]"}) {
     const Outcome outcome = sunder("golden record " + wrong + at);
     EXPECT_EQ(outcome.exit_code, 2) << wrong;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -43,7 +44,7 @@ TEST(FrameStates, AcceptedStatesPassAtEveryPreset) {
   EXPECT_EQ(book.size(), 4u);
   EXPECT_EQ(book.at("frames/boxes/draft").size(), 16u) << "frames 0 to 3";
   EXPECT_EQ(parse_hashes(format_hashes(book), "hashes.txt"), book);
-  for (const Verdict& verdict : compare_frames(kStack, book, "hashes.txt", false)) {
+  for (const Verdict& verdict : compare_frames(kStack, book, "hashes.txt", false).verdicts) {
     EXPECT_EQ(verdict.outcome, Outcome::kPassed) << verdict.what << " " << verdict.text;
   }
 }
@@ -65,6 +66,11 @@ TEST(FrameStates, ABreakBeforeTheScriptDoesNotEndTheRunBeforeTheScript) {
   };
   const StateHashes alone = accepted("");
   ASSERT_LT(frames(alone, "draft"), 15u) << "the brick breaks in the first frames";
+  ASSERT_LT(frames(alone, "realtime"), 60u);
+  StateHashes drawn;
+  accept_frames({"early", file.string(), {}, 90, true}, drawn);
+  EXPECT_EQ(frames(drawn, "realtime"), 91u) << "to the frame that is drawn";
+  EXPECT_EQ(frames(drawn, "draft"), frames(alone, "draft"));
   const std::string shot =
       "[[script.shot]]\ntime_s = 0.5\nfrom = [2, 1, 2]\nat = [0, 0.5, 0]\nradius_m = 0.1\n";
   const StateHashes slow = accepted(shot + "speed_m_s = 5\n"),
@@ -83,7 +89,7 @@ TEST(FrameStates, ADifferentDigitFailsAtItsPresetOnly) {
   accept_frames(kStack, book);
   char& digit = book.at("frames/boxes/draft")[9];
   digit = digit == '0' ? '1' : '0';
-  for (const Verdict& verdict : compare_frames(kStack, book, "hashes.txt", false)) {
+  for (const Verdict& verdict : compare_frames(kStack, book, "hashes.txt", false).verdicts) {
     const bool changed = verdict.what == "simulation at draft";
     EXPECT_EQ(verdict.outcome, changed ? Outcome::kFailed : Outcome::kPassed) << verdict.what;
     if (!changed) continue;
@@ -91,8 +97,30 @@ TEST(FrameStates, ADifferentDigitFailsAtItsPresetOnly) {
   }
 }
 
+TEST(FrameStates, TheFrameIsSameUnlessAStateUpToItDiffersOrIsNotStored) {
+  StateHashes right;
+  accept_frames(kStack, right);
+  const auto compare = [&](int frame, const std::function<void(std::string&)>& change) {
+    StateHashes book = right;
+    change(book.at("frames/boxes/realtime"));
+    GuardedRun run = kStack;
+    run.frame = frame;
+    return compare_frames(run, book, "hashes.txt", false);
+  };
+  const auto none = [](std::string&) {};
+  const auto change_frame_2 = [](std::string& digits) { digits[8] = digits[8] == '0' ? '1' : '0'; };
+  EXPECT_EQ(compare(3, none).frame->index, 3u);
+  EXPECT_TRUE(compare(3, none).is_same);
+  EXPECT_TRUE(compare(1, change_frame_2).is_same);
+  EXPECT_FALSE(compare(2, change_frame_2).is_same);
+  EXPECT_FALSE(compare(3, change_frame_2).is_same);
+  const FrameComparison shorter = compare(3, [](std::string& digits) { digits.resize(12); });
+  EXPECT_FALSE(shorter.is_same);
+  EXPECT_EQ(shorter.frame, nullptr);
+}
+
 TEST(FrameStates, ARunWithoutStoredStatesFails) {
-  const std::vector<Verdict> verdicts = compare_frames(kStack, {}, "hashes.txt", false);
+  const std::vector<Verdict> verdicts = compare_frames(kStack, {}, "hashes.txt", false).verdicts;
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_EQ(verdicts.front().outcome, Outcome::kFailed);
 }
@@ -102,7 +130,7 @@ TEST(FrameStates, WholeRunsAreComparedWithTheStatesOfBench) {
   accept_frames(kStack, book);
   book["state/stack/draft/5"] = "0123456789abcdef";
   const auto failed = [&](const GuardedRun& run, bool whole) {
-    const std::vector<Verdict> verdicts = compare_frames(run, book, "hashes.txt", whole);
+    const std::vector<Verdict> verdicts = compare_frames(run, book, "hashes.txt", whole).verdicts;
     return std::ranges::count(verdicts, Outcome::kFailed, &Verdict::outcome);
   };
   EXPECT_EQ(failed(kStack, false), 0);
