@@ -219,13 +219,6 @@ PreparedBreak prepare_break(const BreakCommand& command, const Box& bounds_R,
   return ready;
 }
 
-BreakPlan break_compound(const Compound& compound, const BreakCommand& command) {
-  PatternLibrary library;
-  const PreparedBreak ready = prepare_break(command, bounds(compound), library);
-  return fracture(compound, *ready.pattern, ready.placement, ready.sphere, command.event,
-                  command.fit);
-}
-
 std::unique_ptr<Breaker> make_pattern_breaker(std::shared_ptr<FailureLog> log) {
   return std::make_unique<PatternBreaker>(std::move(log));
 }

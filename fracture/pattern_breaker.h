@@ -21,9 +21,6 @@ struct PreparedBreak {
 PreparedBreak prepare_break(const BreakCommand& command, const Box& bounds_R,
                             PatternLibrary& library);
 
-/// Executes a command on a compound broken once; returns its pieces, the remaining compound first.
-BreakPlan break_compound(const Compound& compound, const BreakCommand& command);
-
 /// Returns a breaker that breaks structures by the pattern of the command and caches patterns.
 /// Failed cuts are recorded in `log` unless it is null.
 std::unique_ptr<Breaker> make_pattern_breaker(std::shared_ptr<FailureLog> log = nullptr);

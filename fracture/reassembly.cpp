@@ -8,7 +8,6 @@
 #include "engine/base/check.h"
 #include "fracture/adjacency/connectivity.h"
 #include "fracture/adjacency/islands.h"
-#include "fracture/adjacency/overlap.h"
 
 namespace sunder::fracture {
 

@@ -106,16 +106,6 @@ Compound voronoi_compound(int count, std::uint64_t seed) {
   return make_compound(std::move(parts), 1e-9);
 }
 
-Compound ring_compound(int segments, double inner, double outer, double height) {
-  std::vector<Part> parts;
-  for (int i = 0; i < segments; ++i) {
-    const Vec2 polygon[] = {on_circle(inner, i + 1, segments), on_circle(outer, i + 1, segments),
-                            on_circle(outer, i, segments), on_circle(inner, i, segments)};
-    parts.push_back({make_prism(polygon, 0, height, false), kMaterial, 0});
-  }
-  return make_compound(std::move(parts));
-}
-
 Compound make_solid(const std::string& name) {
   const auto colon = name.find(':');
   const std::string kind = name.substr(0, colon);

@@ -16,8 +16,6 @@ Compound grid_compound(int nx, int ny, int nz, const Vec3& size = Vec3::Ones(),
                        bool anchored = false);
 /// Returns the unit cube around the origin, divided into `count` Voronoi cells.
 Compound voronoi_compound(int count, std::uint64_t seed);
-/// Returns a ring of `segments` prisms around the y axis, from y = 0 to `height`, in metres.
-Compound ring_compound(int segments, double inner, double outer, double height);
 
 /// Returns the solid that `name` describes, in metres: box:X,Y,Z column:R,H torus:R,r grid:NX,NY,NZ
 /// voronoi:N hall:N. Grids lie in [0, N]. A hall has N columns that overlap with their roof, is

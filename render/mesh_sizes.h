@@ -1,7 +1,6 @@
 // Approximate sizes of meshes, which frames do not contain.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "engine/model/frame.h"

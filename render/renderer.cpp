@@ -240,7 +240,7 @@ void Renderer::Impl::draw_pieces() {
   depth_tiles.start(view_of_camera(uniforms.clip_of_eye, options.width, options.height));
   using Group = Pieces::Group;
   for (const auto& [group, program] :
-       {std::pair(Group::kMatte, programs.matte), std::pair(Group::kPainted, programs.painted),
+       {std::pair(Group::kMatte, programs.matte), std::pair(Group::kTextured, programs.textured),
         std::pair(Group::kBlocks, programs.blocks), std::pair(Group::kShiny, programs.shiny)}) {
     if (!pieces.has(group)) continue;
     begin_pass(light, program);

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "engine/base/check.h"
-#include "engine/base/trigonometry.h"
 #include "engine/model/checks/scene_accuracy.h"
 #include "engine/model/checks/scene_check.h"
 #include "scenes/file/body.h"

@@ -1,7 +1,6 @@
 // Triangulation of one face of a mesh, for rendering and export.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "engine/geometry/polygon_mesh.h"

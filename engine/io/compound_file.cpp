@@ -1,6 +1,5 @@
 #include "engine/io/compound_file.h"
 
-#include <limits>
 #include <utility>
 
 #include "engine/geometry/polygon_mesh.h"

@@ -1,8 +1,4 @@
 // Layout: "SUNDERF" and the version, XXH3 of the rest (8 bytes), content size (8 bytes), zstd data.
-//
-// Versions: 6 is current; 5 has contacts without keys of bodies; 4 also lacks textures, lights and
-// the inspection; 3 also lacks the sleep flag; 2 also lacks poses of meshes; 1 also lacks debris
-// and dust.
 #include "engine/io/frame_file.h"
 
 #include <algorithm>
@@ -19,8 +15,6 @@ namespace sunder {
 namespace {
 
 constexpr char kMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'};
-// Length of the magic number without the version.
-constexpr std::size_t kMagicLength = sizeof kMagic - 1;
 constexpr std::size_t kHeaderBytes = sizeof kMagic + 8;
 constexpr std::uint64_t kMaxContentBytes = 1ull << 31;  // largest accepted content
 constexpr int kCompressionLevel = 19;                   // files are written once and kept for years
@@ -69,13 +63,11 @@ void put(ByteWriter& out, const Inspection& inspection) {
 }
 
 std::shared_ptr<const Inspection> take_inspection(ByteReader& in, const std::string& file,
-                                                  const Frame& frame, bool with_keys) {
+                                                  const Frame& frame) {
   auto inspection = std::make_shared<Inspection>();
-  inspection->contacts.resize(in.take_count(with_keys ? 40 : 24));
-  for (FrameContact& contact : inspection->contacts) {
-    in.take_to(contact.point_W, contact.force_W);
-    if (with_keys) in.take_to(contact.key_a, contact.key_b);
-  }
+  inspection->contacts.resize(in.take_count(40));
+  for (FrameContact& contact : inspection->contacts)
+    in.take_to(contact.point_W, contact.force_W, contact.key_a, contact.key_b);
   inspection->boxes.resize(in.take_count(28));
   for (FrameBox& box : inspection->boxes) in.take_to(box.min_W, box.max_W, box.body);
   inspection->islands = in.take_list<std::uint32_t>();
@@ -128,14 +120,14 @@ std::vector<std::byte> content_of(const Frame& frame) {
   return std::move(out.bytes);
 }
 
-FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file, int version) {
+FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file) {
   ByteReader in(content, file);
   auto frame = std::make_shared<Frame>();
   in.take_to(frame->index, frame->time_s);
-  frame->view = take_view(in, version >= 5);
+  frame->view = take_view(in);
   std::vector<Material> materials = take_materials(in);
   std::vector<Mesh> meshes(in.take_count(kMinMeshBytes));
-  for (Mesh& mesh : meshes) mesh = take_mesh(in, file, materials.size(), version >= 3);
+  for (Mesh& mesh : meshes) mesh = take_mesh(in, file, materials.size());
   frame->bodies.resize(in.take_count(89));
   for (FrameBody& body : frame->bodies) body = take_body(in);
   frame->instances.resize(in.take_count(8));
@@ -145,19 +137,12 @@ FramePtr frame_of(const std::vector<std::byte>& content, const std::string& file
       throw InputError(file + ": corrupt: an instance has an invalid mesh or body");
     }
   }
-  if (version >= 2) {
-    frame->debris = take_codes(in, file, materials.size(), decode_debris);
-    frame->dust = take_codes(in, file, materials.size(), decode_dust);
-  }
-  std::vector<Appearance> appearances;
-  if (version >= 5) {
-    appearances = take_appearances(in, file);
-    take_uvs(in, file, meshes);
-  }
+  frame->debris = take_codes(in, file, materials.size(), decode_debris);
+  frame->dust = take_codes(in, file, materials.size(), decode_dust);
+  std::vector<Appearance> appearances = take_appearances(in, file);
+  take_uvs(in, file, meshes);
   for (const Mesh& mesh : meshes) check_appearances(mesh, file, appearances.size());
-  if (version >= 5 && in.take<std::uint8_t>() != 0) {
-    frame->inspection = take_inspection(in, file, *frame, version >= 6);
-  }
+  if (in.take<std::uint8_t>() != 0) frame->inspection = take_inspection(in, file, *frame);
   if (!in.at_end()) throw InputError(file + ": corrupt: unexpected bytes at the end");
   frame->materials = std::make_shared<const std::vector<Material>>(std::move(materials));
   if (!appearances.empty())
@@ -191,10 +176,7 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::vector<std::byte> file = read_file(path);
-  const bool is_frame =
-      file.size() >= kHeaderBytes + 8 && std::memcmp(file.data(), kMagic, kMagicLength) == 0;
-  const int version = is_frame ? static_cast<char>(file[kMagicLength]) - '0' : 0;
-  if (version < 1 || version > kMagic[kMagicLength] - '0') {
+  if (file.size() < kHeaderBytes + 8 || std::memcmp(file.data(), kMagic, sizeof kMagic) != 0) {
     throw InputError(name + ": not a frame file of this version of sunder; record it again");
   }
   ByteReader header(file, name);
@@ -211,7 +193,7 @@ FramePtr read_frame(const std::filesystem::path& path) {
                       file.size() - kHeaderBytes - 8);
   if (ZSTD_isError(got) || got != size)
     throw InputError(name + ": corrupt: cannot be decompressed");
-  return frame_of(content, name, version);
+  return frame_of(content, name);
 }
 
 }  // namespace sunder

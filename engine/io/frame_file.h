@@ -9,7 +9,7 @@ namespace sunder {
 
 /// Writes a frame, compressed (zstd) and with a checksum, under a temporary name, and renames it.
 void write_frame(const std::filesystem::path& path, const Frame& frame);
-/// Reads a frame; throws InputError if it is missing, truncated, corrupt or of an unknown version.
+/// Reads a frame; throws InputError if it is missing, truncated, corrupt or of another version.
 FramePtr read_frame(const std::filesystem::path& path);
 
 }  // namespace sunder

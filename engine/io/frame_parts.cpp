@@ -18,14 +18,12 @@ void put(ByteWriter& out, const View& view) {
           view.sky_strength);
 }
 
-View take_view(ByteReader& in, bool lit) {
+View take_view(ByteReader& in) {
   View view;
   in.take_to(view.eye_W, view.target_W, view.to_sun_W, view.ground_color, view.fov_rad,
              view.ground_m);
-  if (lit) {
-    in.take_to(view.exposure, view.shutter, view.sun_color, view.sky_color, view.sun_strength,
-               view.sky_strength);
-  }
+  in.take_to(view.exposure, view.shutter, view.sun_color, view.sky_color, view.sun_strength,
+             view.sky_strength);
   return view;
 }
 
@@ -38,10 +36,9 @@ void put(ByteWriter& out, const Mesh& mesh) {
   out.put_list(mesh.indices);
 }
 
-Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, bool posed) {
+Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials) {
   Mesh mesh;
-  if (posed) in.take_to(mesh.X_RT.position, mesh.X_RT.rotation.coeffs());
-  in.take_to(mesh.origin_T, mesh.material);
+  in.take_to(mesh.X_RT.position, mesh.X_RT.rotation.coeffs(), mesh.origin_T, mesh.material);
   mesh.vertices.resize(in.take_count(28));
   for (Mesh::Vertex& vertex : mesh.vertices) {
     in.take_to(vertex.position, vertex.normal, vertex.look);

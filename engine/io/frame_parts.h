@@ -13,8 +13,7 @@ namespace sunder {
 
 /// Appends a view to `out`.
 void put(ByteWriter& out, const View& view);
-/// Reads a view. `lit`: with exposure, shutter and lights, as put() writes; older files lack them.
-View take_view(ByteReader& in, bool lit = true);
+View take_view(ByteReader& in);
 
 /// Appends the names and appearance of materials; other properties are not stored.
 void put(ByteWriter& out, const std::vector<Material>& materials);
@@ -27,9 +26,9 @@ std::vector<std::string> take_names(ByteReader& in);
 /// Appends a mesh without its texture coordinates.
 void put(ByteWriter& out, const Mesh& mesh);
 /// Reads a mesh. Throws InputError, naming `file`, if its indices are invalid or its material is
-/// not below `materials`. `posed`: with Mesh::X_RT, as put() writes it; older files have none.
-Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials, bool posed = true);
-/// Appends the texture coordinates of those meshes that have them; older files have none.
+/// not below `materials`.
+Mesh take_mesh(ByteReader& in, const std::string& file, std::size_t materials);
+/// Appends the texture coordinates of those meshes that have them.
 void put_uvs(ByteWriter& out, std::span<const std::shared_ptr<const Mesh>> meshes);
 void take_uvs(ByteReader& in, const std::string& file, std::span<Mesh> meshes);
 /// Throws InputError if the mesh uses an appearance beyond `appearances`.

@@ -2,7 +2,6 @@
 #include "engine/model/facets.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <unordered_map>
 

@@ -91,7 +91,6 @@ struct DustView {
   std::span<const Quatf> rotation_WD;  ///< Rotates with the vorticity of the air.
   std::span<const float> radius_m;     ///< Radius of the puff.
   std::span<const float> opacity;      ///< 0 to 1.
-  std::span<const float> age_s;
   std::span<const MaterialIndex> material;
 };
 

@@ -7,7 +7,6 @@
 #include "engine/base/parallel.h"
 #include "engine/model/view_path.h"
 #include "engine/world/actors/draw_bends.h"
-#include "engine/world/actors/make_actor.h"
 
 namespace sunder {
 namespace {

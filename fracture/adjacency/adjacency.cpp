@@ -98,11 +98,6 @@ void add_to_bins(const Convex& convex, const FaceEntry& entry, std::vector<Bin>&
 
 }  // namespace
 
-double min_contact_area_m2(const Convex& a, const Convex& b) {
-  const double size = std::min(size_of(a), size_of(b));
-  return kMinContactArea * size * size;
-}
-
 void sort_bonds(std::vector<Bond>& bonds) {
   std::uint32_t convexes = 0;
   for (const Bond& bond : bonds) convexes = std::max(convexes, bond.a + 1);

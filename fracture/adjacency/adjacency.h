@@ -29,9 +29,6 @@ struct FaceEntry {
   std::uint32_t cap = kNoCap;
 };
 
-/// Returns the least area in m² of a contact; smaller overlaps are rounding errors.
-double min_contact_area_m2(const Convex& a, const Convex& b);
-
 /// Sorts bonds in the order of Compound::bonds.
 void sort_bonds(std::vector<Bond>& bonds);
 /// Appends all faces with which the convex at `index` may touch others.

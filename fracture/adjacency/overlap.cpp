@@ -1,7 +1,6 @@
 #include "fracture/adjacency/overlap.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/check.h"
-
 namespace sunder::fracture {
 namespace {
 

@@ -5,7 +5,6 @@
 #include "fracture/vacd/tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include "engine/base/check.h"
@@ -121,7 +120,7 @@ MaterialIndex material_of(const PolygonMesh& mesh, const VacdOptions& options,
 
 bool is_painted(const PolygonMesh& mesh, const VacdOptions& options) {
   return std::ranges::any_of(mesh.faces, [&](const PolygonMesh::Face& face) {
-    return face.mark > 0 && face.mark <= options.painted.size() && options.painted[face.mark - 1];
+    return face.mark > 0 && face.mark <= options.textured.size() && options.textured[face.mark - 1];
   });
 }
 

@@ -44,7 +44,7 @@ struct VacdOptions {
   std::vector<MaterialIndex> marked{};
   /// By marks, from 1 on: true if faces with the mark have their own texture, so that the visual
   /// mesh must be kept.
-  std::vector<std::uint8_t> painted{};
+  std::vector<std::uint8_t> textured{};
   /// Called with the fraction of the work done; may be empty.
   std::function<void(double)> progress{};
 };

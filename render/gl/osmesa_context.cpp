@@ -1,7 +1,6 @@
 // OpenGL contexts by OSMesa, Mesa's software renderer to memory, for machines without EGL.
 // Mesa 25.1 removed it, so it is a fallback.
 #include <cstdint>
-#include <vector>
 
 #include "render/gl/context.h"
 #include "render/gl/library.h"

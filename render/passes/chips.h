@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "engine/model/frame.h"
 #include "engine/model/particles.h"

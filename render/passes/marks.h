@@ -1,7 +1,6 @@
 // Drawing of the marks of view modes: plain shapes, which show faintly where they are hidden.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "engine/base/types.h"

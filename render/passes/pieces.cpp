@@ -223,7 +223,7 @@ bool Pieces::upload_new() {
           slot.mesh->uvs.empty() ? Eigen::Vector2f(Eigen::Vector2f::Zero()) : slot.mesh->uvs[i];
       const std::uint32_t appearance =
           v.look >= Mesh::kFirstAppearance ? v.look - Mesh::kFirstAppearance + 1 : 0;
-      slot.painted = slot.painted || appearance > 0;
+      slot.textured = slot.textured || appearance > 0;
       vertices.push_back({{v.position.x(), v.position.y(), v.position.z()},
                           {v.normal.x(), v.normal.y(), v.normal.z()},
                           piece,
@@ -302,7 +302,7 @@ void Pieces::update_transforms(const Frame& frame) {
     const auto add = [&](Group to) {
       placed[static_cast<std::size_t>(to)].push_back({distance, static_cast<std::uint32_t>(i)});
     };
-    add(slot.painted && given.none() && group != Group::kGlass ? Group::kPainted : group);
+    add(slot.textured && given.none() && group != Group::kGlass ? Group::kTextured : group);
     if ((group == Group::kMatte || group == Group::kBlocks) && radius > kLargeRadius_m)
       add(Group::kLarge);
     if (group == Group::kGlass) continue;

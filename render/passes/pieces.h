@@ -25,8 +25,8 @@ class Pieces {
   /// Groups of pieces by kind of surface: opaque ones nearest first, glass farthest first.
   enum class Group : std::uint8_t {
     kMatte,
-    kPainted,  ///< Matte pieces with the appearance of a mesh file.
-    kBlocks,   ///< Plastered pieces that are a body each: bricks, ashlars and parts of them.
+    kTextured,  ///< Matte pieces with the appearance of a mesh file.
+    kBlocks,    ///< Plastered pieces that are a body each: bricks, ashlars and parts of them.
     kShiny,
     kGlass,   ///< Drawn for each piece as back faces, then front faces.
     kOpaque,  ///< All pieces but glass, unordered, in addition to the groups above.
@@ -68,7 +68,7 @@ class Pieces {
     Vec3f center = Vec3f::Zero();  ///< Centre of the bounding box, in coordinates of the mesh.
     Vec3f half_extent = Vec3f::Zero();
     BlockSides sides = {};
-    bool painted = false;
+    bool textured = false;
   };
   /// The linked list of copies of a mesh, and the first copy that this frame does not use yet.
   struct Copies {

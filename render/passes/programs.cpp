@@ -16,9 +16,9 @@ Programs make_programs(const GlTable& gl, bool gathers, bool transparent) {
                           {common_glsl, nothing_frag});
   p.matte = make_program(gl, "matte", {common_glsl, bodies_glsl, pieces_vert},
                          {common_glsl, shadow_glsl, pieces_frag});
-  p.painted =
-      make_program(gl, "painted", {common_glsl, bodies_glsl, "#define PAINTED\n", pieces_vert},
-                   {common_glsl, shadow_glsl, "#define PAINTED\n", pieces_frag});
+  p.textured =
+      make_program(gl, "textured", {common_glsl, bodies_glsl, "#define TEXTURED\n", pieces_vert},
+                   {common_glsl, shadow_glsl, "#define TEXTURED\n", pieces_frag});
   p.blocks = make_program(gl, "blocks", {common_glsl, bodies_glsl, "#define BLOCKS\n", pieces_vert},
                           {common_glsl, shadow_glsl, "#define BLOCKS\n", pieces_frag});
   p.shiny = make_program(gl, "shiny", {common_glsl, bodies_glsl, pieces_vert},

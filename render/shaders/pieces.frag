@@ -1,9 +1,9 @@
 // A lit, textured face. Alpha is the share of ambient light, which ambient occlusion reduces.
 uniform sampler2DArray tiles;
-#ifdef PAINTED
+#ifdef TEXTURED
 uniform sampler2DArray pictures;
 in vec2 picture_uv;
-flat in vec4 paint;
+flat in vec4 appearance;
 flat in vec4 detail;
 #endif
 
@@ -31,7 +31,7 @@ const float kDielectric = 0.04;  // reflectance of non-metals at normal incidenc
 const vec3 kPlaster = vec3(0.56, 0.52, 0.45);
 const float kJoint = 0.007;  // half the width of a joint between blocks, in metres
 
-#ifdef PAINTED
+#ifdef TEXTURED
 // Returns the normal of a normal map on a face with normal n. The directions of the texture
 // coordinates follow from the changes of place and coordinates from pixel to pixel: for changes
 // `across` and `down` of the place, the gradient g of a coordinate that changes by a and d satisfies
@@ -112,12 +112,12 @@ void main() {
   albedo *= (1.0 + 0.18 * worn) * (1.0 - 0.8 * clamp(joint, 0.0, 1.0));
 #endif
 
-#ifdef PAINTED
+#ifdef TEXTURED
   // The colours of a mesh file replace those of the material; some of the grain is kept.
-  vec3 shown = texture(pictures, vec3(picture_uv, max(paint.w - 1.0, 0.0))).rgb;
+  vec3 shown = texture(pictures, vec3(picture_uv, max(appearance.w - 1.0, 0.0))).rgb;
   shown = shown * (shown * (shown * 0.305306011 + 0.682171111) + 0.012522878);  // from sRGB
-  if (paint.w >= 0.0) {
-    albedo = paint.rgb * (paint.w > 0.0 ? shown : vec3(1.0));
+  if (appearance.w >= 0.0) {
+    albedo = appearance.rgb * (appearance.w > 0.0 ? shown : vec3(1.0));
     slope *= 0.3 * (detail.z < 0.0 ? 1.0 : detail.z);
   }
 #endif
@@ -126,7 +126,7 @@ void main() {
                                   : (a.x > 1.01 * a.z ? vec3(0.0, slope.y, slope.x)
                                                       : vec3(slope, 0.0));
   vec3 bumped = normalize(n - tilt + n * dot(n, tilt));
-#ifdef PAINTED
+#ifdef TEXTURED
   if (detail.x > 0.0) bumped = in_relief(n, rest - eye_rest);
 #endif
 
@@ -162,7 +162,7 @@ void main() {
   direct = sun_light.rgb * sunlit_here * (0.12 * tint * max(facing, 0.0) +
                                       mirror * mix(1.6 * sharp, 0.6 * shine, rough));
 #else
-#ifdef PAINTED
+#ifdef TEXTURED
   vec3 mirror_of_sun = vec3(0.0), mirror_of_world = vec3(0.0);
   if (detail.z >= 0.0) {
     vec2 gloss = detail.zw;

@@ -1,12 +1,12 @@
 // Vertex of a piece. The directions to sun and sky and the eye are transformed to the rest frame of
 // the piece, in which its textures are defined.
 uniform samplerBuffer materials;  // material_rows(), then Pictures::rows()
-#ifdef PAINTED
+#ifdef TEXTURED
 layout(location = 3) in vec2 uv;
-layout(location = 4) in uint paint_number;  // from 1; 0 for none
+layout(location = 4) in uint appearance_number;  // from 1; 0 for none
 
 out vec2 picture_uv;
-flat out vec4 paint;   // linear colour; w: layer of the picture from 1, 0: none, -1: no appearance
+flat out vec4 appearance;  // linear colour; w: layer of the picture from 1, 0: none, -1: no appearance
 flat out vec4 detail;  // layers of relief and gloss from 1, 0: none; roughness, -1: no gloss; metalness
 #endif
 
@@ -54,14 +54,14 @@ void main() {
   high = high_side.xyz + broken;
   first_color.rgb *= low_side.w * vec3(1.0 + high_side.w, 1.0, 1.0 - 0.6 * high_side.w);
 #endif
-#ifdef PAINTED
+#ifdef TEXTURED
   picture_uv = uv;
-  paint = vec4(0.0, 0.0, 0.0, -1.0);
+  appearance = vec4(0.0, 0.0, 0.0, -1.0);
   detail = vec4(0.0, 0.0, -1.0, 0.0);
-  if (paint_number > 0u) {
-    int paint_row = int(ground_offset.z) + 2 * (int(paint_number) - 1);
-    paint = texelFetch(materials, paint_row);
-    detail = texelFetch(materials, paint_row + 1);
+  if (appearance_number > 0u) {
+    int appearance_row = int(ground_offset.z) + 2 * (int(appearance_number) - 1);
+    appearance = texelFetch(materials, appearance_row);
+    detail = texelFetch(materials, appearance_row + 1);
   }
 #endif
 }

@@ -8,7 +8,6 @@
 #include "engine/geometry/approximate_hull.h"
 #include "fracture/solids.h"
 #include "scenes/app/commands.h"
-#include "scenes/app/mesh_report.h"
 
 namespace sunder::app {
 namespace {

@@ -61,7 +61,7 @@ std::uint64_t cache_key(const RawMesh& mesh, const fracture::VacdOptions& vacd,
     all.put(polygon.corner_count, polygon.group);
   put_all(all, vacd.nodes);
   put_all(all, vacd.marked);
-  put_all(all, vacd.painted);
+  put_all(all, vacd.textured);
   all.put(vacd.node_count.value_or(0), vacd.convexes, vacd.fit.kind, vacd.fit.vertex_count, repair);
   return hash_bytes(all.bytes);
 }

@@ -192,7 +192,7 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   std::vector<std::optional<Appearance>> appearances;
   for (const RawMesh::Group& group : raw.groups) {
     appearances.push_back(group.appearance);
-    if (options.appearances) vacd_of.painted.push_back(group.appearance ? 1 : 0);
+    if (options.appearances) vacd_of.textured.push_back(group.appearance ? 1 : 0);
   }
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
   std::optional<MeshSolid> known = options.cached ? load_cached(key) : std::nullopt;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <utility>
 
 namespace sunder::scenes {
 namespace {

@@ -4,7 +4,6 @@
 // placed in their bay by append_moved().
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "engine/base/trigonometry.h"

@@ -4,7 +4,6 @@
 // stand extend to the axis. The dome is corbelled: its bed joints are level, so that each ring
 // rests on the one below.
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <utility>
 

@@ -3,7 +3,6 @@
 // Read first: build_compound().
 #include <algorithm>
 #include <cstdint>
-#include <string>
 #include <utility>
 
 #include "fracture/adjacency/islands.h"

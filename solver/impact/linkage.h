@@ -16,7 +16,6 @@ namespace sunder::solver {
 /// exact for trees and closed loops and adds no energy.
 class Linkage {
  public:
-  Linkage() = default;
   /// Linearly dependent rows, as in closed loops of joints, are allowed.
   explicit Linkage(std::vector<ContactRow> rows);
 

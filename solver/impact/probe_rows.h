@@ -1,7 +1,6 @@
 // Constraint rows of an impact probe's contacts and joints at later poses of the bodies.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "engine/base/types.h"

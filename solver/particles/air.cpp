@@ -2,7 +2,6 @@
 #include "solver/particles/air.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/parallel.h"
 

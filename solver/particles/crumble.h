@@ -1,8 +1,6 @@
 // Emission of debris and dust, uniformly on each face that a break has exposed.
 #pragma once
 
-#include <vector>
-
 #include "engine/base/random.h"
 #include "engine/model/particles.h"
 #include "solver/particles/debris.h"

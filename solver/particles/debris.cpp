@@ -69,7 +69,7 @@ void Debris::add(const DebrisBirth& birth) {
     ignore();
     return;
   }
-  ++ledger_.emitted;
+  ++counts_.emitted;
   position_W_.push_back(birth.position_W);
   velocity_W_.push_back(birth.velocity_W);
   angular_velocity_W_.push_back(birth.angular_velocity_W);
@@ -364,7 +364,7 @@ void Debris::remove(std::uint32_t chip) {
   };
   drop(position_W_, velocity_W_, angular_velocity_W_, rotation_WD_, radius_m_, drawn_radius_m_,
        slow_s_, variant_, material_, state_, support_, sleep_order_);
-  ++ledger_.gone;
+  ++counts_.gone;
   lists_valid_ = false;
 }
 
@@ -392,11 +392,11 @@ DebrisView Debris::view() const {
   return {position_W_, rotation_WD_, drawn_radius_m_, variant_, material_};
 }
 
-ParticleCounts Debris::ledger() const {
-  ParticleCounts ledger = ledger_;
-  ledger.alive = static_cast<std::uint32_t>(position_W_.size());
-  ledger.awake = static_cast<std::uint32_t>(awake_.size());
-  return ledger;
+ParticleCounts Debris::counts() const {
+  ParticleCounts counts = counts_;
+  counts.alive = static_cast<std::uint32_t>(position_W_.size());
+  counts.awake = static_cast<std::uint32_t>(awake_.size());
+  return counts;
 }
 
 }  // namespace sunder::solver

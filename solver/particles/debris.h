@@ -27,14 +27,14 @@ class Debris {
  public:
   Debris(std::uint32_t limit, const Vec3& gravity_W);
 
-  /// Adds a chip; at the limit the chip is ignored and counted in ledger().ignored.
+  /// Adds a chip; at the limit the chip is ignored and counted in counts().ignored.
   void add(const DebrisBirth& birth);
-  void ignore() { ++ledger_.ignored; }
+  void ignore() { ++counts_.ignored; }
   /// Returns the number of chips that can still be added.
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DebrisView view() const;
-  ParticleCounts ledger() const;
+  ParticleCounts counts() const;
 
  private:
   enum class State : std::uint8_t { kAwake, kAsleep, kFading };
@@ -72,7 +72,7 @@ class Debris {
 
   std::uint32_t limit_;
   Vec3 gravity_W_;
-  ParticleCounts ledger_;
+  ParticleCounts counts_;
   std::uint64_t next_sleep_order_ = 0;
 
   std::vector<Vec3f> position_W_, velocity_W_, angular_velocity_W_;

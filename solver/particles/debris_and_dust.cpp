@@ -40,8 +40,8 @@ class DebrisAndDust final : public Particles {
 
   ParticleReport report() const override {
     ParticleReport report;
-    report.debris = debris_.ledger();
-    report.dust = dust_.ledger();
+    report.debris = debris_.counts();
+    report.dust = dust_.counts();
     if (const Air* air = dust_.air()) {
       report.air_cells = static_cast<std::uint32_t>(air->grid().lattice.cells());
       report.air_iterations = static_cast<std::uint32_t>(air->iterations());

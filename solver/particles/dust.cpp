@@ -45,7 +45,7 @@ void Dust::add(const DustBirth& birth) {
     ignore();
     return;
   }
-  ++ledger_.emitted;
+  ++counts_.emitted;
   position_W_.push_back(birth.position_W);
   slip_W_.push_back(birth.velocity_W);
   rotation_WD_.push_back(birth.rotation_WD);
@@ -269,20 +269,18 @@ void Dust::remove_settled() {
          first_radius_m_, radius_m_, opacity_, age_s_, settled_s_, material_);
     ++kept;
   }
-  ledger_.gone += position_W_.size() - kept;
+  counts_.gone += position_W_.size() - kept;
   const auto cut = [&](auto&... arrays) { (arrays.resize(kept), ...); };
   cut(position_W_, slip_W_, rotation_WD_, mass_kg_, settling_m_s_, turbulence_m_s_, first_radius_m_,
       radius_m_, opacity_, age_s_, settled_s_, material_);
 }
 
-DustView Dust::view() const {
-  return {position_W_, rotation_WD_, radius_m_, opacity_, age_s_, material_};
-}
+DustView Dust::view() const { return {position_W_, rotation_WD_, radius_m_, opacity_, material_}; }
 
-ParticleCounts Dust::ledger() const {
-  ParticleCounts ledger = ledger_;
-  ledger.alive = ledger.awake = static_cast<std::uint32_t>(position_W_.size());
-  return ledger;
+ParticleCounts Dust::counts() const {
+  ParticleCounts counts = counts_;
+  counts.alive = counts.awake = static_cast<std::uint32_t>(position_W_.size());
+  return counts;
 }
 
 }  // namespace sunder::solver

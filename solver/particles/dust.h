@@ -27,14 +27,14 @@ class Dust {
  public:
   Dust(std::uint32_t limit, const Vec3& gravity_W, const Vec3i& air_cells);
 
-  /// Adds a puff; at the limit the puff is ignored and counted in ledger().ignored.
+  /// Adds a puff; at the limit the puff is ignored and counted in counts().ignored.
   void add(const DustBirth& birth);
-  void ignore() { ++ledger_.ignored; }
+  void ignore() { ++counts_.ignored; }
   /// Returns the number of puffs that can still be added.
   std::uint32_t room() const { return limit_ - static_cast<std::uint32_t>(position_W_.size()); }
   void advance(double dt_s, const Obstacles& obstacles);
   DustView view() const;
-  ParticleCounts ledger() const;
+  ParticleCounts counts() const;
   /// Returns the air, or null while there is no dust.
   const Air* air() const { return flow_ ? &flow_->air : nullptr; }
 
@@ -71,7 +71,7 @@ class Dust {
   Vec3f down_W_;
   Vec3i air_cells_;                     ///< Greatest number of air cells per axis.
   Vec3i wanted_cells_ = Vec3i::Zero();  ///< Result of cells_for() in the last step.
-  ParticleCounts ledger_;
+  ParticleCounts counts_;
   std::optional<Flow> flow_;
   std::vector<float> sorted_m_;
   std::vector<std::uint32_t> cell_;   ///< Index of the air cell that holds each puff, or kOutside.

@@ -3,7 +3,6 @@
 #include "solver/particles/pressure.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"

@@ -19,11 +19,9 @@ float overlap(float x, float half) {
 void Solids::place(const Grid& grid, const Obstacles& obstacles) {
   blocks_.clear();
   const Vec3f counts = grid.lattice.counts.cast<float>();
-  for (std::uint32_t s = 0; s < obstacles.shapes.size(); ++s) {
-    const ObstacleShape& shape = obstacles.shapes[s];
+  for (const ObstacleShape& shape : obstacles.shapes) {
     const ObstacleBody& body = obstacles.bodies[shape.body];
     Block block;
-    block.shape = s;
     Vec3 center_W = body.X_WB.position;
     if (shape.hull) {
       center_W = body.X_WB * Vec3(shape.box_R.center() - body.com_R);

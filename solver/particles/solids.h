@@ -21,7 +21,6 @@ class Solids {
  private:
   /// A box in units of cells, relative to the lower corner of the grid.
   struct Block {
-    std::uint32_t shape = 0;
     Vec3f center, half;
     Mat3f rotation;
     float fill = 1;        ///< Solid fraction of the box.

@@ -8,7 +8,6 @@
 
 #include "engine/base/check.h"
 #include "engine/base/froude.h"
-#include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"

@@ -1,7 +1,6 @@
 #include "solver/planar/planar_touches.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace sunder::solver {
@@ -91,7 +90,6 @@ bool find_contact(const FixturePair& pair, const Plane2& plane, float reach,
   world.Initialize(&m, a->GetBody()->GetTransform(), a->GetShape()->m_radius,
                    b->GetBody()->GetTransform(), b->GetShape()->m_radius);
   const float sign = swapped ? -1.f : 1.f;
-  contact.key_a = key_of(pair.first), contact.key_b = key_of(pair.second);
   contact.shape_a = shape_of(pair.first), contact.shape_b = shape_of(pair.second);
   contact.body_a = body_of(pair.first->GetBody()), contact.body_b = body_of(pair.second->GetBody());
   contact.normal_W =

@@ -11,7 +11,6 @@ namespace sunder::solver {
 
 /// Contact of two fixtures, with one or two points.
 struct FixtureContact {
-  std::uint64_t key_a = 0, key_b = 0;      ///< Keys of the fixtures; key_a < key_b.
   std::uint32_t body_a = 0, body_b = 0;    ///< Slots of the bodies.
   std::uint32_t shape_a = 0, shape_b = 0;  ///< Slots of the shapes.
   Vec3 normal_W = Vec3::UnitY();           ///< Unit normal from a to b.
@@ -20,7 +19,8 @@ struct FixtureContact {
   double separations_m[2] = {};
 };
 
-/// Returns all contacts that may close within dt_s at current velocities, in order of keys.
+/// Returns all contacts that may close within dt_s at current velocities, in order of the
+/// keys of their fixtures.
 std::vector<FixtureContact> find_fixture_contacts(const b2World& world,
                                                   std::span<const PlanarBody> bodies,
                                                   std::span<const PlanarShape> shapes,

@@ -7,7 +7,6 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "solver/base/check_bodies.h"
 #include "solver/impact/event_probe.h"

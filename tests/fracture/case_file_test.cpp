@@ -12,6 +12,7 @@
 #include "engine/base/check.h"
 #include "engine/geometry/approximate_hull.h"
 #include "fracture/pattern_breaker.h"
+#include "tests/fracture/break_compound.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {

@@ -13,7 +13,7 @@
 #include "engine/base/parallel.h"
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/fracture.h"
-#include "fracture/pattern_breaker.h"
+#include "tests/fracture/break_compound.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 

@@ -13,6 +13,8 @@
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/pattern_breaker.h"
+#include "tests/fracture/break_compound.h"
+#include "tests/fracture/ring.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 

@@ -10,7 +10,8 @@
 #include "engine/geometry/hull.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/adjacency/overlap.h"
-#include "fracture/pattern_breaker.h"
+#include "tests/fracture/break_compound.h"
+#include "tests/fracture/ring.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 

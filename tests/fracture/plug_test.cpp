@@ -11,6 +11,7 @@
 #include "engine/base/random.h"
 #include "fracture/pattern/cell_limit.h"
 #include "fracture/pattern_breaker.h"
+#include "tests/fracture/break_compound.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {

@@ -7,7 +7,8 @@
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/hull.h"
-#include "fracture/pattern_breaker.h"
+#include "tests/fracture/break_compound.h"
+#include "tests/fracture/ring.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"
 

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "fracture/adjacency/adjacency.h"
-#include "fracture/pattern_breaker.h"
 #include "tests/engine/geometry_fixtures.h"
 #include "tests/fracture/bent_beam.h"
+#include "tests/fracture/break_compound.h"
 #include "tests/fracture/frames.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/truths.h"

@@ -3,10 +3,10 @@
 
 #include "engine/geometry/polygon_mesh.h"
 #include "fracture/adjacency/adjacency.h"
-#include "fracture/pattern_breaker.h"
 #include "fracture/rejoin.h"
 #include "tests/engine/geometry_fixtures.h"
 #include "tests/fracture/bent_beam.h"
+#include "tests/fracture/break_compound.h"
 #include "tests/fracture/visual_truths.h"
 
 namespace sunder::fracture {

@@ -8,6 +8,7 @@
 
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/adjacency/islands.h"
+#include "fracture/adjacency/plane_sweep.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {
@@ -149,7 +150,9 @@ std::vector<Bond> contacts_by_distance(const Compound& compound, double toleranc
       const Plane &m = p.faces[a.face].plane, &n = q.faces[b.face].plane;
       if ((m.normal + n.normal).norm() > 1e-7 || std::abs(m.d + n.d) > tolerance) continue;
       const double area = face_overlap(p, a.face, q, b.face);
-      if (area > min_contact_area_m2(*compound.convexes[a.convex], *compound.convexes[b.convex]))
+      const double size =
+          std::min(size_of(*compound.convexes[a.convex]), size_of(*compound.convexes[b.convex]));
+      if (area > kMinContactArea * size * size)
         bonds.push_back({a.convex, b.convex, a.face, b.face, area});
     }
   }

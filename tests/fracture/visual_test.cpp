@@ -8,10 +8,10 @@
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/cut/intersect.h"
 #include "fracture/cut/surface.h"
-#include "fracture/pattern_breaker.h"
 #include "fracture/stress/bond_geometry.h"
 #include "fracture/vacd/vacd.h"
 #include "tests/engine/geometry_mesh_fixtures.h"
+#include "tests/fracture/break_compound.h"
 #include "tests/fracture/solids.h"
 #include "tests/fracture/visual_truths.h"
 

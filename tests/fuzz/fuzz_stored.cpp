@@ -82,16 +82,13 @@ void play_recording(const std::vector<std::byte>& file) {
 void play_file(std::span<const std::uint8_t> bytes) { play_recording(bytes_of(bytes)); }
 
 /// Plays a recording with correct checksums and any content of blocks. Each block is given as its
-/// kind, its number, the length of its content in two bytes, and the content. 128 added to the
-/// first kind makes a recording of the newest version; otherwise it is of the oldest.
+/// kind, its number, the length of its content in two bytes, and the content.
 void play_blocks(std::span<const std::uint8_t> bytes) {
   ByteWriter out;
-  for (std::size_t i = 0; i < kRecordingMagicLength; ++i) out.put(kRecordingMagic[i]);
-  out.put(bytes.empty() || bytes[0] < 128 ? kOldestVersion
-                                          : kRecordingMagic[kRecordingMagicLength]);
+  for (const char c : kRecordingMagic) out.put(c);
   Packer frames, others;
   for (std::size_t at = 0; at + 4 <= bytes.size();) {
-    const auto kind = static_cast<BlockKind>(bytes[at] % 128);
+    const auto kind = static_cast<BlockKind>(bytes[at]);
     const std::size_t said = bytes[at + 2] | bytes[at + 3] << 8;
     const std::size_t size = std::min(said, bytes.size() - at - 4);
     const std::vector<std::byte> content = bytes_of(bytes.subspan(at + 4, size));
@@ -105,10 +102,10 @@ void play_blocks(std::span<const std::uint8_t> bytes) {
 }
 
 /// Reads a frame file with a correct checksum and any content, stored uncompressed in a zstd frame
-/// (RFC 8878, 3.1.1). The first byte gives the version.
+/// (RFC 8878, 3.1.1).
 void read_frame_content(std::span<const std::uint8_t> bytes) {
   if (bytes.empty() || bytes.size() > 1 << 16) return;
-  const std::vector<std::byte> content = bytes_of(bytes.subspan(1));
+  const std::vector<std::byte> content = bytes_of(bytes);
   const auto size = static_cast<std::uint32_t>(content.size());
   ByteWriter body;
   body.put(std::uint64_t{size});
@@ -118,8 +115,7 @@ void read_frame_content(std::span<const std::uint8_t> bytes) {
   for (int i = 0; i < 3; ++i) body.put(static_cast<std::uint8_t>(block >> 8 * i));
   body.bytes.insert(body.bytes.end(), content.begin(), content.end());
   ByteWriter file;
-  for (const char c : {'S', 'U', 'N', 'D', 'E', 'R', 'F'}) file.put(c);
-  file.put(static_cast<char>('1' + bytes[0] % 3));
+  for (const char c : {'S', 'U', 'N', 'D', 'E', 'R', 'F', '6'}) file.put(c);
   file.put(hash_bytes(body.bytes));
   file.bytes.insert(file.bytes.end(), body.bytes.begin(), body.bytes.end());
   const TemporaryFile stored(file.bytes);

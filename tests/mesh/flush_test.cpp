@@ -10,8 +10,8 @@
 #include "engine/geometry/repair/repair.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/adjacency/compound_builder.h"
-#include "fracture/pattern_breaker.h"
 #include "fracture/vacd/vacd.h"
+#include "tests/fracture/break_compound.h"
 
 namespace sunder {
 namespace {

@@ -4,8 +4,8 @@
 #include "engine/base/check.h"
 #include "engine/geometry/walls/outer_surface.h"
 #include "fracture/check/audit.h"
-#include "fracture/pattern_breaker.h"
 #include "fracture/vacd/vacd.h"
+#include "tests/fracture/break_compound.h"
 #include "tests/mesh/made_meshes.h"
 #include "tests/mesh/mesh_damage.h"
 

@@ -209,7 +209,7 @@ TEST(Glb, KeepsAppearancesWithTheirTexturesAndCoordinates) {
   for (const RawMesh::Polygon& polygon : read.polygons) {
     const RawMesh::Group& group = read.groups.at(polygon.group);
     const std::string& name = group.names.back();
-    const std::size_t number = name == "paint 1" ? 1 : name == "paint 2" ? 2 : 0;
+    const std::size_t number = name == "appearance 1" ? 1 : name == "appearance 2" ? 2 : 0;
     ++seen[number];
     if (number == 0) {
       EXPECT_FALSE(group.appearance->picture);

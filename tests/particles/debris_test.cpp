@@ -54,11 +54,11 @@ TEST(Debris, NeverPassesTheGroundAndConservesItsCount) {
     debris.advance(kDt, obstacles.view());
     const DebrisView view = debris.view();
     for (const Vec3f& at : view.position_W) ASSERT_GE(at.y(), -1.5f + 0.02f - 1e-6f);
-    const ParticleCounts ledger = debris.ledger();
-    ASSERT_EQ(ledger.emitted, 2000u);
-    ASSERT_EQ(ledger.alive, ledger.emitted - ledger.gone);
+    const ParticleCounts counts = debris.counts();
+    ASSERT_EQ(counts.emitted, 2000u);
+    ASSERT_EQ(counts.alive, counts.emitted - counts.gone);
   }
-  EXPECT_EQ(debris.ledger().awake, 0u) << "all asleep after 10 s";
+  EXPECT_EQ(debris.counts().awake, 0u) << "all asleep after 10 s";
 }
 
 TEST(Debris, AtRestStaysWhereItIsBitForBit) {
@@ -66,7 +66,7 @@ TEST(Debris, AtRestStaysWhereItIsBitForBit) {
   TestObstacles obstacles;
   debris.add(chip_at(Vec3f(0, 0.3f, 0), Vec3f(0.5f, 0, 0)));
   run(debris, obstacles, 3);
-  ASSERT_EQ(debris.ledger().awake, 0u);
+  ASSERT_EQ(debris.counts().awake, 0u);
   const Vec3f before = debris.view().position_W[0];
   run(debris, obstacles, 3);
   EXPECT_EQ(debris.view().position_W[0], before);
@@ -79,12 +79,12 @@ TEST(Debris, LiesOnATiltedBoxByFrictionAndWakesWhenTheBoxIsRemoved) {
   obstacles.add_box(Vec3(0, 2, 0), Vec3(1, 0.1, 1), Quat(1, 0, 0, half / 2).normalized());
   debris.add(chip_at(Vec3f(0, 2.2f, 0)));
   run(debris, obstacles, 2);
-  ASSERT_EQ(debris.ledger().awake, 0u);
+  ASSERT_EQ(debris.counts().awake, 0u);
   EXPECT_NEAR(debris.view().position_W[0].y(), 2.12, 0.03);
   obstacles.bodies.clear();
   obstacles.shapes.clear();
   run(debris, obstacles, 0.3);
-  EXPECT_EQ(debris.ledger().awake, 1u);
+  EXPECT_EQ(debris.counts().awake, 1u);
   EXPECT_LT(debris.view().position_W[0].y(), 2);
   run(debris, obstacles, 3);
   EXPECT_NEAR(debris.view().position_W[0].y(), 0.02, 1e-3);
@@ -109,7 +109,7 @@ TEST(Debris, IsPushedByAMovingBodyEvenAsleep) {
   TestObstacles obstacles;
   debris.add(chip_at(Vec3f(0, 0.1f, 0)));
   run(debris, obstacles, 2);
-  ASSERT_EQ(debris.ledger().awake, 0u);
+  ASSERT_EQ(debris.counts().awake, 0u);
   obstacles.set_velocity(obstacles.add_box(Vec3(-1, 0.5, 0), Vec3(0.2, 0.5, 0.5)), Vec3(2, 0, 0));
   run(debris, obstacles, 1);
   EXPECT_GT(debris.view().position_W[0].x(), 1.2f - 0.01f);
@@ -172,10 +172,10 @@ TEST(Debris, SleepsOnABodyThatHardlyMovesAndWakesWhenItHasMoved) {
   obstacles.set_velocity(floor, Vec3(0, 0, 1e-5));
   debris.add(chip_at(Vec3f(0, 0.65f, 0)));
   run(debris, obstacles, 2);
-  EXPECT_EQ(debris.ledger().awake, 0u);
+  EXPECT_EQ(debris.counts().awake, 0u);
   obstacles.set_velocity(floor, Vec3(0.02, 0, 0));  // The motion is detected after some steps.
   run(debris, obstacles, 0.2);
-  EXPECT_EQ(debris.ledger().awake, 1u);
+  EXPECT_EQ(debris.counts().awake, 1u);
 }
 
 TEST(Debris, RestsOnObstaclesOfAnySizeNumberAndPlace) {
@@ -211,15 +211,15 @@ TEST(Debris, OverItsBudgetFadesTheOldestAtRestAndOverItsLimitRejectsChips) {
   TestObstacles obstacles;
   for (int i = 0; i < 100; ++i) debris.add(chip_at(Vec3f(float(i), 0.05f, 0)));
   run(debris, obstacles, 1);
-  ASSERT_EQ(debris.ledger().awake, 0u);
+  ASSERT_EQ(debris.counts().awake, 0u);
   for (int i = 0; i < 70; ++i) debris.add(chip_at(Vec3f(float(i), 0.05f, 5)));
-  EXPECT_EQ(debris.ledger().alive, 160u);
-  EXPECT_EQ(debris.ledger().ignored, 10u);
+  EXPECT_EQ(debris.counts().alive, 160u);
+  EXPECT_EQ(debris.counts().ignored, 10u);
   run(debris, obstacles, 2);
-  const ParticleCounts ledger = debris.ledger();
-  EXPECT_EQ(ledger.alive, ledger.emitted - ledger.gone);
-  EXPECT_LE(ledger.alive, 150u) << "space for new chips";
-  EXPECT_GE(ledger.alive, 130u) << "not more removed than needed";
+  const ParticleCounts counts = debris.counts();
+  EXPECT_EQ(counts.alive, counts.emitted - counts.gone);
+  EXPECT_LE(counts.alive, 150u) << "space for new chips";
+  EXPECT_GE(counts.alive, 130u) << "not more removed than needed";
   for (const Vec3f& at : debris.view().position_W) {
     if (at.z() > 4) continue;
     EXPECT_GE(at.x(), 10) << "the oldest must be removed first";
@@ -239,10 +239,10 @@ TEST(Debris, OverItsBudgetShrinksSmallChipsBeforeLargeOnes) {
   for (int i = 0; i < 100; ++i) add(float(i), 0, i % 2 == 0 ? 0.15f : 0.05f);
   run(debris, obstacles, 1);
   for (int i = 0; i < 55; ++i) add(float(i), 5, 0.05f);
-  ASSERT_EQ(debris.ledger().ignored, 0u);
+  ASSERT_EQ(debris.counts().ignored, 0u);
   for (int step = 0; step < 20; ++step) {
     run(debris, obstacles, 0.9 * kDt);
-    ASSERT_EQ(debris.ledger().alive, 155u) << "no chip may vanish at once";
+    ASSERT_EQ(debris.counts().alive, 155u) << "no chip may vanish at once";
   }
   int shrinking = 0;
   for (std::size_t chip = 0; chip < full_m.size(); ++chip) {

@@ -31,13 +31,13 @@ TEST(Dust, SettlesUnderGravityAtItsSpeedAndIsThenRemoved) {
     dust.add(puff_at(Vec3f(0.3f * float(i % 7), 0.8f, 0.3f * float(i / 7))));
   }
   for (int step = 0; step < 60; ++step) dust.advance(kDt, obstacles.view());
-  ASSERT_EQ(dust.ledger().alive, 50u);
+  ASSERT_EQ(dust.counts().alive, 50u);
   for (const Vec3f& at : dust.view().position_W) EXPECT_NEAR(at.y(), 0.6, 0.03);
   for (int step = 0; step < 120; ++step) dust.advance(kDt, obstacles.view());
   for (const Vec3f& at : dust.view().position_W) EXPECT_NEAR(at.y(), 0.2, 0.05);
   for (int step = 0; step < 300; ++step) dust.advance(kDt, obstacles.view());
-  EXPECT_EQ(dust.ledger().alive, 0u);
-  EXPECT_EQ(dust.ledger().gone, 50u);
+  EXPECT_EQ(dust.counts().alive, 0u);
+  EXPECT_EQ(dust.counts().gone, 50u);
 }
 
 TEST(Dust, WithoutParticlesHasNoGrid) {
@@ -49,7 +49,7 @@ TEST(Dust, WithoutParticlesHasNoGrid) {
   dust.advance(kDt, obstacles.view());
   EXPECT_NE(dust.air(), nullptr);
   for (int step = 0; step < 200; ++step) dust.advance(kDt, obstacles.view());
-  EXPECT_EQ(dust.ledger().alive, 0u);
+  EXPECT_EQ(dust.counts().alive, 0u);
   EXPECT_EQ(dust.air(), nullptr);
 }
 
@@ -137,10 +137,10 @@ TEST(Dust, OverItsLimitIsRejectedAndCounted) {
   Dust dust(64, kGravity, kCounts);
   const TestObstacles obstacles;
   for (int i = 0; i < 100; ++i) dust.add(puff_at(Vec3f(0, 1, 0)));
-  EXPECT_EQ(dust.ledger().alive, 64u);
-  EXPECT_EQ(dust.ledger().ignored, 36u);
+  EXPECT_EQ(dust.counts().alive, 64u);
+  EXPECT_EQ(dust.counts().ignored, 36u);
   for (int step = 0; step < 60; ++step) dust.advance(kDt, obstacles.view());
-  EXPECT_LE(dust.ledger().alive, 60u) << "the oldest were removed";
+  EXPECT_LE(dust.counts().alive, 60u) << "the oldest were removed";
 }
 
 Vec3f velocity_in(const Swirl& swirl, std::size_t cell, const Vec3f& at) {

@@ -43,7 +43,7 @@ std::uint64_t hash_of(const Particles& particles) {
   for (const std::uint64_t part :
        {hash_of(debris.position_W), hash_of(debris.rotation_WD), hash_of(debris.radius_m),
         hash_of(debris.variant), hash_of(dust.position_W), hash_of(dust.rotation_WD),
-        hash_of(dust.radius_m), hash_of(dust.opacity), hash_of(dust.age_s)}) {
+        hash_of(dust.radius_m), hash_of(dust.opacity)}) {
     hash = combine(hash, part);
   }
   return hash;
@@ -76,8 +76,8 @@ std::uint64_t run_and_hash(int thread_count) {
     obstacles.advance(kDt);
     particles->advance(kDt, obstacles.view());
     hash = combine(hash, hash_of(*particles));
-    const ParticleCounts ledger = particles->report().debris;
-    asleep = std::max(asleep, ledger.alive - ledger.awake);
+    const ParticleCounts counts = particles->report().debris;
+    asleep = std::max(asleep, counts.alive - counts.awake);
   }
   const ParticleReport report = particles->report();
   EXPECT_GT(asleep, 500u);

@@ -24,10 +24,10 @@ TEST(RegressDebris, FallsWhenTheConvexUnderItIsRemovedFromItsBody) {
   chip.radius_m = 0.02f;
   debris.add(chip);
   run(debris, obstacles, 2);
-  ASSERT_EQ(debris.ledger().awake, 0u);
+  ASSERT_EQ(debris.counts().awake, 0u);
   obstacles.shapes.clear();  // the body's other shapes are elsewhere
   run(debris, obstacles, 0.2);
-  EXPECT_EQ(debris.ledger().awake, 0u) << "the number of edits has not changed";
+  EXPECT_EQ(debris.counts().awake, 0u) << "the number of edits has not changed";
   ++obstacles.bodies[0].edits;
   run(debris, obstacles, 3);
   EXPECT_NEAR(debris.view().position_W[0].y(), 0.02, 1e-3);

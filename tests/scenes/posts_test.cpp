@@ -126,7 +126,6 @@ TEST(Posts, OfStackedPartsAreAsStiffAsTheirPartsTogether) {
   std::printf("steel under wood: %.0f kg, exactly %.0f without self-weight\n", posts[0].critical_kg,
               exact_kg);
   const double weight_kg = 0.01 * (2 * 7800 + 2 * 600);
-  EXPECT_NEAR(posts[0].weight_kg, weight_kg, 1e-6 * weight_kg);
   EXPECT_NEAR((posts[0].critical_kg + 0.315 * weight_kg) / exact_kg, 1, 0.01);
   EXPECT_TRUE(post_warning(parse(post + cube(0.5 * exact_kg, 0, 4))).empty());
   EXPECT_FALSE(post_warning(parse(post + cube(2 * exact_kg, 0, 4))).empty());

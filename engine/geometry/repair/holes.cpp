@@ -96,17 +96,12 @@ ClosedHoles close_holes(Surface& surface) {
   }
   for (const Loop& loop : loops) {
     const std::size_t n = loop.vertices.size();
-    if (n < 3 || n > kMaxLoopCorners) {
-      ++closed.left_open;
-      continue;
-    }
+    if (n < 3 || n > kMaxLoopCorners) continue;
     const std::vector<Vec3> points = points_of(surface, loop);
     const bool planar = is_planar(points);
     const std::vector<Triangle> triangles = triangulate(points);
-    if (!planar && area_of(points, triangles) > kMaxPatchAreaRatio * area[shell[loop.polygon]]) {
-      ++closed.left_open;
+    if (!planar && area_of(points, triangles) > kMaxPatchAreaRatio * area[shell[loop.polygon]])
       continue;
-    }
     ++(planar ? closed.planar : closed.curved);
     const std::uint32_t group = surface.mesh.polygons[loop.polygon].group;
     if (planar && is_simple(points, triangles)) {

@@ -11,7 +11,6 @@ namespace sunder {
 struct ClosedHoles {
   std::size_t planar = 0;  ///< Closed by one polygon, or by triangles if the loop crosses itself.
   std::size_t curved = 0;  ///< Closed by triangles, of least area if the loop is short.
-  std::size_t left_open = 0;  ///< Not closed: too many corners, or too large an area.
 };
 
 /// Appends polygons that close the loops of open edges. The vertices of the surface must have been

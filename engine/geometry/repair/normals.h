@@ -1,7 +1,6 @@
 // Shading normals of a repaired surface.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "engine/geometry/repair/surface.h"

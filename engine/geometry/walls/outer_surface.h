@@ -5,7 +5,6 @@
 // every edge of the result belongs to exactly two faces.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

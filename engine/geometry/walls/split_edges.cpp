@@ -1,7 +1,6 @@
 // Splitting of edges in the planes of walls, a step of outer_surface().
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "engine/geometry/walls/piece_surface.h"

@@ -73,7 +73,7 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
   }
   const auto first_appearance = static_cast<std::uint32_t>(model.materials.size());
   for (std::size_t p = 0; p < appearances.size(); ++p) {
-    model.materials.push_back({"paint " + std::to_string(p + 1), appearances[p]});
+    model.materials.push_back({"appearance " + std::to_string(p + 1), appearances[p]});
   }
   const auto is_known = [&](const PolygonMesh::Face& face) {
     return face.mark <= appearances.size();

@@ -1,7 +1,6 @@
 #include "engine/io/mesh/mesh_mtl.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 

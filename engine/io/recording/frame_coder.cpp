@@ -21,7 +21,6 @@ constexpr double kSpeedSteps = 2;  // coarse: speeds are not drawn
 // Columns of a body: position and rotation (extrapolated), velocities, flags, hash, key, centre of
 // mass, key less the key in the previous frame, name.
 constexpr std::size_t kBodyColumns = 25;
-constexpr std::size_t kOldBodyColumns = 23;  // without the last two columns
 constexpr std::size_t kExtrapolatedBodyColumns = 7;
 // Only positions of particles are extrapolated: their rotations are too coarse to tell a rate of
 // change from rounding.
@@ -82,9 +81,7 @@ FrameBody decode_body(std::span<const std::int32_t> row, std::int32_t& hash) {
   body.key = take_bits();
   for (int i = 0; i < 3; ++i) body.com_R[i] = std::bit_cast<double>(take_bits());
   if (!body.com_R.allFinite()) body.com_R.setZero();
-  body.previous_key = body.key;
-  if (row.size() == kOldBodyColumns) return body;
-  body.previous_key -= static_cast<std::uint64_t>(std::int64_t{*from++});
+  body.previous_key = body.key - static_cast<std::uint64_t>(std::int64_t{*from++});
   body.name = static_cast<std::uint32_t>(*from);
   return body;
 }
@@ -192,7 +189,7 @@ void write_report(ByteWriter& out, const Frame& frame) {
   }
 }
 
-void read_report(ByteReader& in, Frame& frame, bool with_pieces) {
+void read_report(ByteReader& in, Frame& frame) {
   FrameReport& report = frame.report;
   in.take_to(report.counts, report.mass_kg, report.kinetic_J, report.potential_J, report.plastic_J,
              report.momentum_residual);
@@ -202,8 +199,6 @@ void read_report(ByteReader& in, Frame& frame, bool with_pieces) {
   for (BreakEvent& event : frame.breaks) {
     in.take_to(event.time_s, event.parent_key, event.point_W, event.energy_J, event.new_area_m2,
                event.pieces);
-    event.previous_key = event.parent_key;
-    if (!with_pieces) continue;
     in.take_to(event.material, event.previous_key, event.name);
     event.child_keys = in.take_list<std::uint64_t>();
   }
@@ -215,10 +210,8 @@ std::int32_t short_hash(const FrameBody& body) {
   return static_cast<std::int32_t>(hash_body(body) & 0xff);
 }
 
-FrameCoder::FrameCoder(char version)
-    : version_(version),
-      bodies_(version >= kFirstWithNames ? kBodyColumns : kOldBodyColumns,
-              kExtrapolatedBodyColumns),
+FrameCoder::FrameCoder()
+    : bodies_(kBodyColumns, kExtrapolatedBodyColumns),
       debris_(kParticleNumbers, kExtrapolatedParticleColumns),
       dust_(kParticleNumbers, kExtrapolatedParticleColumns) {}
 
@@ -273,8 +266,8 @@ RecordedFrame FrameCoder::read(const std::vector<std::byte>& bytes, const std::s
   RecordedFrame take;
   Frame& frame = take.frame;
   in.take_to(frame.index, frame.time_s, frame.recorded_hash, take.meshes);
-  frame.view = take_view(in, version_ >= kFirstWithNames);
-  read_report(in, frame, version_ >= kFirstWithPieces);
+  frame.view = take_view(in);
+  read_report(in, frame);
   std::vector<std::uint32_t> before;
   const NumberTable table = bodies_.read(in, file, before);
   frame.bodies.resize(table.rows());

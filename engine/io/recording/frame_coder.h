@@ -26,8 +26,7 @@ struct RecordedFrame {
 /// Encoder or decoder of a stream of frames; writer and reader each have one, in equal states.
 class FrameCoder {
  public:
-  /// Makes a coder for a recording of `version`, at least kOldestVersion.
-  explicit FrameCoder(char version = kRecordingMagic[kRecordingMagicLength]);
+  FrameCoder();
   /// Forgets the previous frame: the next one is encoded without reference to it.
   void reset();
   /// Appends a frame as a difference to the last one.
@@ -41,7 +40,6 @@ class FrameCoder {
   void read_instances(ByteReader& in, const std::string& file,
                       const std::vector<std::uint32_t>& before, RecordedFrame& take);
 
-  char version_;
   TableCoder bodies_, debris_, dust_;
   std::vector<std::uint64_t> keys_;  ///< Keys of the last frame's bodies.
   /// For each of those bodies, the meshes drawn on it.

@@ -34,7 +34,7 @@ class RecordingWriter final : public FrameSink {
 /// and damage() describes the fault.
 class RecordingReader final : public FrameSource {
  public:
-  /// Opens a recording; throws InputError if the file cannot be read, is not a recording of a known
+  /// Opens a recording; throws InputError if the file cannot be read, is not a recording of this
   /// version, or has no readable frame.
   explicit RecordingReader(const std::filesystem::path& path);
   ~RecordingReader() override;

@@ -1,9 +1,6 @@
 // Blocks of a recording. File layout: "SUNDERT" and the version, consecutive blocks, and, if the
 // run finished, a block with their index, whose offset is in the last 16 bytes.
 //
-// Versions: 7 is current; 6 has breaks without pieces and materials; 5 also lacks names, lights and
-// the origin of bodies.
-//
 // A block is a header and data in zstd. The blocks of one group of frames (a key frame and those
 // encoded relative to it) are one zstd stream, flushed after every frame.
 #pragma once
@@ -21,13 +18,8 @@ struct ZSTD_DCtx_s;
 namespace sunder {
 
 inline constexpr char kRecordingMagic[8] = {'S', 'U', 'N', 'D', 'E', 'R', 'T', '7'};
-inline constexpr std::size_t kRecordingMagicLength =
-    sizeof kRecordingMagic - 1;              ///< Length without the version.
-inline constexpr char kOldestVersion = '5';  ///< Oldest version that can be read.
-/// First version with names, lights and the origin of bodies.
-inline constexpr char kFirstWithNames = '6';
-/// First version whose breaks have pieces and materials.
-inline constexpr char kFirstWithPieces = '7';
+/// Length without the version.
+inline constexpr std::size_t kRecordingMagicLength = sizeof kRecordingMagic - 1;
 inline constexpr char kIndexMagic[8] = {'T', 'A', 'K', 'E', 'E', 'N', 'D', '1'};
 inline constexpr std::uint64_t kFramesPerGroup = 120;
 inline constexpr std::uint64_t kMaxBlockBytes = 1ull << 30;  ///< Larger blocks are rejected.

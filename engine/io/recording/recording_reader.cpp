@@ -66,16 +66,14 @@ RecordingReader::Playback::Playback(const std::filesystem::path& path) : file_(p
   char magic[sizeof kRecordingMagic] = {};
   in_.seekg(0);
   in_.read(magic, sizeof magic);
-  const bool is_take = in_ && std::memcmp(magic, kRecordingMagic, kRecordingMagicLength) == 0;
+  const bool is_recording = in_ && std::memcmp(magic, kRecordingMagic, kRecordingMagicLength) == 0;
   const char version = magic[kRecordingMagicLength];
-  if (!is_take || version < kOldestVersion || version > kRecordingMagic[kRecordingMagicLength]) {
-    const bool other = is_take;
-    throw InputError(
-        file_ +
-        (other ? ": a recording by another version of sunder (version " + std::string(1, version) +
-                     ", this program reads up to " + kRecordingMagic[kRecordingMagicLength] +
-                     "); record it again"
-               : std::string(": not a recording; make one by `sunder simulate --take FILE`")));
+  if (!is_recording)
+    throw InputError(file_ + ": not a recording; `sunder simulate --take FILE` makes one");
+  if (version != kRecordingMagic[kRecordingMagicLength]) {
+    throw InputError(file_ + ": a recording by another version of sunder (version " + version +
+                     ", this program reads version " + kRecordingMagic[kRecordingMagicLength] +
+                     "); record it again");
   }
   if (!read_index()) scan();
   if (!materials_block_ || frame_blocks_.empty()) {
@@ -85,9 +83,7 @@ RecordingReader::Playback::Playback(const std::filesystem::path& path) : file_(p
   const auto content = content_at(*materials_block_, other_unpacker_);
   ByteReader in(content, file_);
   materials_ = std::make_shared<const std::vector<Material>>(take_materials(in));
-  if (version >= kFirstWithNames)
-    names_ = std::make_shared<const std::vector<std::string>>(take_names(in));
-  coder_ = FrameCoder(version);
+  names_ = std::make_shared<const std::vector<std::string>>(take_names(in));
   if (!in.at_end())
     appearances_ = std::make_shared<const std::vector<Appearance>>(take_appearances(in, file_));
 }

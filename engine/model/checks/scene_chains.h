@@ -1,7 +1,6 @@
 // Estimates of the substeps that hanging chains of a scene need.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -340,7 +340,7 @@ std::vector<Post> find_posts(const Scene& scene) {
     if (!column || factor * height_m < kMinSlenderness * column->gyration_m) continue;
     const double euler_kg = column->critical_N() * (2 / factor) * (2 / factor) / g;
     const double self_weight = factor == 2 ? kSelfWeightFree : kSelfWeightHeld;
-    posts.push_back({name_or_index(solid.name, "solid", i), height_m, loads[i], column->weight_kg,
+    posts.push_back({name_or_index(solid.name, "solid", i), height_m, loads[i],
                      std::max(0.0, euler_kg - self_weight * column->weight_kg), factor});
   }
   return posts;

@@ -20,9 +20,8 @@ namespace sunder {
 /// but rotates.
 struct Post {
   std::string name;
-  double height_m = 0;   ///< Height above its anchored part.
-  double load_kg = 0;    ///< Load on its head.
-  double weight_kg = 0;  ///< Self-weight above its anchored part.
+  double height_m = 0;  ///< Height above its anchored part.
+  double load_kg = 0;   ///< Load on its head.
   /// Load on its head at which it buckles; self-weight is taken into account.
   double critical_kg = 0;
   double length_factor = 0;  ///< K.

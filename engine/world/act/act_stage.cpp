@@ -1,7 +1,6 @@
 #include "engine/world/act/act_stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "engine/world/act/moves.h"

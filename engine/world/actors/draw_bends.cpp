@@ -1,7 +1,6 @@
 #include "engine/world/actors/draw_bends.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>

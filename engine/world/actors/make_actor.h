@@ -1,7 +1,6 @@
 // Creation of actors and of their bodies for the physics. Internal to engine/world.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "engine/world/actors/world.h"

@@ -2,7 +2,6 @@
 #include "solver/rigid/body/bodies.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/inertia.h"
@@ -33,7 +32,6 @@ InertiaRoot inertia_root(const Mat3& inertia_B) {
 Shape make_shape(const ShapeDesc& desc, const Vec3& com_R) {
   Shape shape;
   shape.kind = desc.kind;
-  shape.present = true;
   shape.tag = desc.tag;
   shape.friction = static_cast<float>(desc.friction);
   shape.rolling = static_cast<float>(desc.rolling);

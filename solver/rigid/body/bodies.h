@@ -123,7 +123,6 @@ struct Bodies {
 /// One convex of a body. Spheres use `center` and `radius_m`; half-spaces `center` and `normal`.
 struct Shape {
   ShapeDesc::Kind kind = ShapeDesc::Kind::kHull;
-  bool present = false;
   BodySlot body;
   ShapeSlot next, previous;  ///< Other shapes of the body, a linked list.
   std::uint32_t tag = 0;

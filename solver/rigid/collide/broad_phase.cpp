@@ -2,7 +2,6 @@
 #include "solver/rigid/collide/broad_phase.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"

@@ -2,7 +2,6 @@
 #include "solver/rigid/collide/manifold_build.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "solver/rigid/tuning.h"
 

@@ -1,7 +1,6 @@
 // Tests two near shapes: they are apart, touch, or will touch within the step.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"

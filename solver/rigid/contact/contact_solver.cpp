@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 
 #include "engine/base/nncg.h"
 #include "solver/rigid/body/motion.h"
@@ -26,12 +27,14 @@ class ContactSolver::Stages {
   Stages(ContactSolver& solver, const StepContext& step, Bodies& bodies, Contacts& contacts,
          Joints& joints)
       : solver_(solver),
+        blocks_(*solver.blocks_),
+        guard_(solver.energy_guard_),
         step_(step),
         bodies_(bodies),
         joints_(joints),
         rows_(solver.rows_.data() + solver.kinematic_.size()),
         accelerated_(!solver.energy_.empty()),
-        guarded_(solver.energy_guard_.is_active()),
+        guarded_(guard_.is_active()),
         gravity_{
             step.gravity_dv_W.x(), step.gravity_dv_W.y(), step.gravity_dv_W.z(), 0, 0, 0, 0, 0},
         half_fall_(static_cast<float>(0.5 * step.h_s) * gravity_),
@@ -51,82 +54,66 @@ class ContactSolver::Stages {
 
   void run() {
     plan();
-    run_stages(stages_, [&](const Stage& stage, std::uint32_t begin, std::uint32_t end) {
-      (this->*stage.work)(begin, end);
+    run_stages(stages_, [](const Stage& stage, std::uint32_t begin, std::uint32_t end) {
+      stage.work(begin, end);
     });
   }
 
  private:
-  using Work = void (Stages::*)(std::uint32_t begin, std::uint32_t end);
-  using WorkOnBody = void (Stages::*)(BodySlot body);
-  using WorkOnGroup = void (Stages::*)(std::uint32_t group);
   struct Stage : StageItems {
-    Work work = nullptr;
+    std::function<void(std::uint32_t begin, std::uint32_t end)> work;
   };
 
   void plan();
-  /// Plans the sweeps of a substep. After all sweeps but the last, split bodies are joined; after
-  /// the last one join_and_move() and join_and_add_gravity() do that, which saves a stage.
-  template <WorkOnGroup joint_work>
-  void sweeps(Work work, Work last_work) {
-    for (int i = 1; i <= solver_.options_.sweeps; ++i) {
-      const bool last = i == solver_.options_.sweeps;
-      if (accelerated_ && !last) all_blocks(&Stages::save_impulses);
-      each_joint_color<joint_work>();
-      each_color(last ? last_work : work);
-      if (last) break;
-      join_if_split();
-      if (!accelerated_) continue;
-      all_blocks(&Stages::find_change_energy);
-      once(i == 1 ? &Stages::first_beta : &Stages::next_beta);
-      each_color(&Stages::step_along_direction);
-    }
-  }
+  template <auto solve_joints, auto sweep>
+  void plan_sweeps(bool sum_impulses);
+  void plan_restitution();
+  void plan_energy_guard();
 
-  /// Restitution comes before the sweeps, which remove all closing speed.
-  void plan_restitution() {
-    if (!solver_.order_.bouncy() || !solver_.moving_) return;
-    for (int round = 0; round < kRestitutionRounds; ++round) {
-      once(round == 0 ? &Stages::first_restitution : &Stages::begin_restitution);
-      each_color(&Stages::apply_restitution);
-    }
+  // Each function appends the stages that do `work` on all items of a kind.
+  template <class Work>
+  void once(const Work& work) {
+    stages_.push_back({{0, 1, 1}, [work](std::uint32_t, std::uint32_t) { work(); }});
   }
-  void once(Work work) { stages_.push_back({{0, 1, 1}, work}); }
-  template <WorkOnBody work>
-  void all_bodies() {
+  template <auto work>
+  void each_body() {
     const auto count = static_cast<std::uint32_t>(solver_.active_.size());
-    stages_.push_back({{0, count, kBodyGrain}, &Stages::on_bodies<work>});
+    stages_.push_back({{0, count, kBodyGrain}, [this](std::uint32_t begin, std::uint32_t end) {
+                         for (std::uint32_t i = begin; i < end; ++i)
+                           (this->*work)(solver_.active_[i]);
+                       }});
   }
-  void all_blocks(Work work) {
-    const std::uint32_t grain = kManifoldGrain / solver_.blocks_->lanes();
-    stages_.push_back({{0, solver_.blocks_->size(), grain}, work});
+  template <class Work>
+  void each_block(const Work& work) {
+    stages_.push_back({{0, blocks_.size(), kManifoldGrain / blocks_.lanes()}, work});
   }
-  void each_color(Work work) {
+  template <auto work>
+  void each_block() {
+    each_block([this](auto begin, auto end) { (blocks_.*work)(begin, end, contact_step_); });
+  }
+  template <class Work>
+  void each_color(const Work& work) {
     for (const StageItems& color : solver_.colors_) stages_.push_back({color, work});
   }
-  template <WorkOnGroup work>
-  void each_joint_color() {
+  template <auto work>
+  void each_color() {
+    each_color([this](auto begin, auto end) { (blocks_.*work)(begin, end, contact_step_); });
+  }
+  template <class Work>
+  void each_joint_group(const Work& work) {
     for (const StageItems& color : solver_.joint_solver_.colors())
-      stages_.push_back({color, &Stages::on_joints<work>});
+      stages_.push_back({color, [work](std::uint32_t begin, std::uint32_t end) {
+                           for (std::uint32_t i = begin; i < end; ++i) work(i);
+                         }});
+  }
+  template <auto work>
+  void each_joint_group() {
+    each_joint_group([this](auto i) { (solver_.joint_solver_.*work)(i, step_, rows_); });
   }
   void join_if_split() {
-    if (!solver_.splitting_.empty()) all_bodies<&Stages::join>();
+    if (!solver_.splitting_.empty()) each_body<&Stages::join>();
   }
 
-  template <WorkOnBody work>
-  void on_bodies(std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) (this->*work)(solver_.active_[i]);
-  }
-  template <WorkOnGroup work>
-  void on_joints(std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) (this->*work)(i);
-  }
-
-  // Bodies.
-  void move_free_bodies(std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i)
-      move_freely(step_, solver_.free_bodies_[i], bodies_);
-  }
   BodyRow& row(BodySlot body) { return rows_[row_of(body)]; }
   void load_body(BodySlot body) { load_row(bodies_, body, row(body), solver_.root_W_[body]); }
   void store_body(BodySlot body) {
@@ -136,7 +123,7 @@ class ContactSolver::Stages {
   void add_first_gravity(BodySlot body) {
     BodyRow& r = row(body);
     r.velocity = r.base = r.velocity + gravity_;
-    if (guarded_) solver_.energy_guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
+    if (guarded_) guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
   }
   /// Adds gravity to `base` before all impulses of a substep, warm start included: the change of
   /// velocity by the impulses is the warm start of the next substep.
@@ -147,7 +134,7 @@ class ContactSolver::Stages {
     // The joint solver warm starts bodies that only joints hold: rounding of a difference would
     // accumulate.
     r.velocity = solver_.joint_solver_.hangs_free(body) ? r.base : r.base + impulses;
-    if (guarded_) solver_.energy_guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
+    if (guarded_) guard_.record_energy_before(body, bodies_.inverse_mass[body], r);
   }
   void join_and_add_gravity(BodySlot body) { join(body), add_gravity(body); }
   void join(BodySlot body) { solver_.splitting_.join(body, row(body)); }
@@ -156,124 +143,31 @@ class ContactSolver::Stages {
     BodyRow& r = row(body);
     const Wide pushed = r.velocity - r.base;
     const bool flies = linear(pushed).isZero(0) && angular(pushed).isZero(0);
-    if (flies || (guarded_ && solver_.energy_guard_.is_in_free_fall(body)))
-      r.position -= half_fall_;
+    if (flies || (guarded_ && guard_.is_in_free_fall(body))) r.position -= half_fall_;
     r.position += static_cast<float>(step_.h_s) * r.velocity;
   }
-  void move_kinematic_bodies(std::uint32_t, std::uint32_t) {
-    for (BodyRow* r = solver_.rows_.data(); r < rows_; ++r)
-      r->position += static_cast<float>(step_.h_s) * r->velocity;
+  void record_impulse_work(BodySlot body) {
+    guard_.record_impulse_work(body, bodies_.inverse_mass[body], row(body));
+  }
+  void scale_body(BodySlot body) {
+    if (!guard_.needs_scaling()) return;
+    BodyRow& r = row(body);
+    r.velocity = r.base + guard_.scale_of_row()[row_of(body)] * (r.velocity - r.base);
   }
   void turn(BodySlot body);
   void finish(BodySlot body);
 
-  // Blocks of manifolds.
-  void prepare(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->prepare(begin, end, contact_step_);
-  }
-  void warm_start(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->warm_start(begin, end, contact_step_);
-  }
-  void update_arms(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->update_arms(begin, end, contact_step_);
-  }
-  void apply_arm_change(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->apply_arm_change(begin, end, contact_step_);
-  }
-  void sweep_biased(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->sweep_biased(begin, end, contact_step_);
-  }
-  void sweep_relaxed(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->sweep_relaxed(begin, end, contact_step_);
-  }
-  void sweep_last(std::uint32_t begin, std::uint32_t end) {
-    sweep_relaxed(begin, end);
-    solver_.blocks_->sum_impulses(begin, end);
-  }
-  /// Starts another round if the last one had a rebound: a struck body may now meet a neighbour.
-  void first_restitution(std::uint32_t, std::uint32_t) { rebounds_on_ = true, any_rebound_ = 0; }
-  void begin_restitution(std::uint32_t, std::uint32_t) {
-    rebounds_on_ = any_rebound_.exchange(0) != 0;
-  }
-  void apply_restitution(std::uint32_t begin, std::uint32_t end) {
-    if (rebounds_on_ && solver_.blocks_->apply_restitution(begin, end, contact_step_))
-      any_rebound_ = 1;
-  }
-  void store(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->store(begin, end, contact_step_);
-  }
-  void prepare_impacts(std::uint32_t, std::uint32_t) {
-    solver_.impact_pass_.prepare(contact_step_, *solver_.blocks_);
-  }
-  void propagate_impacts(std::uint32_t, std::uint32_t) {
-    solver_.impact_pass_.run(contact_step_, *solver_.blocks_);
-  }
-
-  // Groups of joints.
   JointStep step_bodies() const { return {solver_.root_W_, solver_.kinematic_rows_}; }
-  void begin_joints(std::uint32_t i) {
-    solver_.joint_solver_.begin(i, step_, bodies_, joints_, step_bodies(), rows_);
-  }
-  void solve_joints_final(std::uint32_t i) {
-    solver_.joint_solver_.solve_final(i, step_, bodies_, joints_, step_bodies(), rows_);
-  }
-  void warm_start_joints(std::uint32_t i) { solver_.joint_solver_.warm_start(i, step_, rows_); }
-  void solve_joints_biased(std::uint32_t i) { solver_.joint_solver_.solve_biased(i, step_, rows_); }
-  void refresh_joints(std::uint32_t i) { solver_.joint_solver_.refresh(i, step_, rows_); }
-  void solve_joints_relaxed(std::uint32_t i) {
-    solver_.joint_solver_.solve_relaxed(i, step_, rows_);
-  }
-  void break_joints(std::uint32_t i) { solver_.joint_solver_.break_overloaded(i, step_, rows_); }
-
-  // Conjugate gradients.
-  void save_impulses(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->save_impulses(begin, end);
-  }
-  void find_change_energy(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->find_change_energy(begin, end, solver_.energy_.data());
-  }
-  void first_beta(std::uint32_t begin, std::uint32_t end) { nncg_ = {}, next_beta(begin, end); }
   /// Finds beta from the energy of a sweep's changes.
-  void next_beta(std::uint32_t, std::uint32_t) {
+  void find_beta() {
     double energy = 0;
     for (const float of_manifold : solver_.energy_) energy += double{of_manifold};
     beta_ = static_cast<float>(nncg_.beta(energy));
   }
-  void step_along_direction(std::uint32_t begin, std::uint32_t end) {
-    solver_.blocks_->step_along_direction(begin, end, contact_step_, beta_);
-  }
-
-  // The energy guard.
-  void record_impulse_work(BodySlot body) {
-    solver_.energy_guard_.record_impulse_work(body, bodies_.inverse_mass[body], row(body));
-  }
-  void sum_requests(std::uint32_t, std::uint32_t) {
-    solver_.energy_guard_.sum_requests(solver_.active_);
-  }
-  void find_impulse_scales(std::uint32_t, std::uint32_t) {
-    solver_.energy_guard_.find_impulse_scales(solver_.active_);
-  }
-  void scale_body(BodySlot body) {
-    if (!solver_.energy_guard_.needs_scaling()) return;
-    BodyRow& r = row(body);
-    const float share = solver_.energy_guard_.scale_of_row()[row_of(body)];
-    r.velocity = r.base + share * (r.velocity - r.base);
-  }
-  void scale_impulses(std::uint32_t begin, std::uint32_t end) {
-    if (solver_.energy_guard_.needs_scaling())
-      solver_.blocks_->scale_impulses(begin, end, solver_.energy_guard_.scale_of_row());
-  }
-  void record_spin_change(std::uint32_t begin, std::uint32_t end) {
-    if (solver_.energy_guard_.needs_scaling())
-      solver_.blocks_->record_spin_change(begin, end, contact_step_,
-                                          solver_.energy_guard_.scale_of_row());
-  }
-  void scale_joints(std::uint32_t i) {
-    if (solver_.energy_guard_.needs_scaling())
-      solver_.joint_solver_.scale_impulses(i, step_, solver_.energy_guard_.scale_of_row(), rows_);
-  }
 
   ContactSolver& solver_;
+  ContactBlocks& blocks_;
+  EnergyGuard& guard_;
   const StepContext& step_;
   Bodies& bodies_;
   Joints& joints_;
@@ -292,51 +186,117 @@ class ContactSolver::Stages {
 
 void ContactSolver::Stages::plan() {
   const auto free = static_cast<std::uint32_t>(solver_.free_bodies_.size());
-  stages_.push_back({{0, free, kBodyGrain}, &Stages::move_free_bodies});
+  stages_.push_back({{0, free, kBodyGrain}, [this](std::uint32_t begin, std::uint32_t end) {
+                       for (std::uint32_t i = begin; i < end; ++i)
+                         move_freely(step_, solver_.free_bodies_[i], bodies_);
+                     }});
   if (solver_.active_.empty()) return;
   const bool joints = !solver_.joint_solver_.empty(), impacts = !solver_.impact_pass_.empty();
   const bool joined = joints || guarded_;  // before gravity is added, as stages between need it
-  all_bodies<&Stages::begin>();
-  all_blocks(&Stages::prepare);
-  if (impacts) once(&Stages::prepare_impacts);
-  each_joint_color<&Stages::begin_joints>();
+  each_body<&Stages::begin>();
+  each_block<&ContactBlocks::prepare>();
+  if (impacts) once([this] { solver_.impact_pass_.prepare(contact_step_, blocks_); });
+  each_joint_group([this](auto i) {
+    solver_.joint_solver_.begin(i, step_, bodies_, joints_, step_bodies(), rows_);
+  });
   for (int s = 0; s < step_.substeps; ++s) {
     if (s == 0) {
-      all_bodies<&Stages::add_first_gravity>();
-      each_joint_color<&Stages::warm_start_joints>();
-      each_color(&Stages::warm_start);
+      each_body<&Stages::add_first_gravity>();
+      each_joint_group<&JointSolver::warm_start>();
+      each_color<&ContactBlocks::warm_start>();
       join_if_split();
-      if (solver_.moving_) all_blocks(&Stages::update_arms);
+      if (solver_.moving_) each_block<&ContactBlocks::update_arms>();
     } else {
-      joined ? all_bodies<&Stages::add_gravity>() : all_bodies<&Stages::join_and_add_gravity>();
-      if (solver_.moving_) each_color(&Stages::apply_arm_change), join_if_split();
+      joined ? each_body<&Stages::add_gravity>() : each_body<&Stages::join_and_add_gravity>();
+      if (solver_.moving_) each_color<&ContactBlocks::apply_arm_change>(), join_if_split();
     }
     plan_restitution();
-    if (impacts) once(&Stages::propagate_impacts);
-    sweeps<&Stages::solve_joints_biased>(&Stages::sweep_biased, &Stages::sweep_biased);
-    all_bodies<&Stages::join_and_move>();
-    if (!solver_.kinematic_.empty()) once(&Stages::move_kinematic_bodies);
-    if (solver_.moving_) all_blocks(&Stages::update_arms);
-    each_joint_color<&Stages::refresh_joints>();
-    sweeps<&Stages::solve_joints_relaxed>(&Stages::sweep_relaxed, &Stages::sweep_last);
+    if (impacts) once([this] { solver_.impact_pass_.run(contact_step_, blocks_); });
+    plan_sweeps<&JointSolver::solve_biased, &ContactBlocks::sweep_biased>(false);
+    each_body<&Stages::join_and_move>();
+    if (!solver_.kinematic_.empty()) {
+      once([this] {
+        for (BodyRow* r = solver_.rows_.data(); r < rows_; ++r)
+          r->position += static_cast<float>(step_.h_s) * r->velocity;
+      });
+    }
+    if (solver_.moving_) each_block<&ContactBlocks::update_arms>();
+    each_joint_group<&JointSolver::refresh>();
+    plan_sweeps<&JointSolver::solve_relaxed, &ContactBlocks::sweep_relaxed>(true);
     if (joined || s + 1 == step_.substeps) join_if_split();
-    each_joint_color<&Stages::break_joints>();
-    if (!guarded_) continue;
-    all_bodies<&Stages::record_impulse_work>();
-    once(&Stages::find_impulse_scales);
-    all_bodies<&Stages::scale_body>();
-    if (solver_.moving_) each_color(&Stages::record_spin_change);
-    all_blocks(&Stages::scale_impulses);
-    each_joint_color<&Stages::scale_joints>();
+    each_joint_group<&JointSolver::break_overloaded>();
+    if (guarded_) plan_energy_guard();
   }
-  all_blocks(&Stages::store);
-  all_bodies<&Stages::turn>();
-  if (guarded_) once(&Stages::sum_requests);
-  all_bodies<&Stages::finish>();
+  each_block<&ContactBlocks::store>();
+  each_body<&Stages::turn>();
+  if (guarded_) once([this] { guard_.sum_requests(solver_.active_); });
+  each_body<&Stages::finish>();
   if (!joints) return;
-  all_bodies<&Stages::load_body>();
-  each_joint_color<&Stages::solve_joints_final>();
-  all_bodies<&Stages::store_body>();
+  each_body<&Stages::load_body>();
+  each_joint_group([this](auto i) {
+    solver_.joint_solver_.solve_final(i, step_, bodies_, joints_, step_bodies(), rows_);
+  });
+  each_body<&Stages::store_body>();
+}
+
+/// Plans the sweeps of a substep. After all sweeps but the last, split bodies are joined; after
+/// the last one join_and_move() and join_and_add_gravity() do that, which saves a stage.
+template <auto solve_joints, auto sweep>
+void ContactSolver::Stages::plan_sweeps(bool sum_impulses) {
+  for (int i = 1; i <= solver_.options_.sweeps; ++i) {
+    const bool last = i == solver_.options_.sweeps, first = i == 1;
+    if (accelerated_ && !last)
+      each_block([this](auto begin, auto end) { blocks_.save_impulses(begin, end); });
+    each_joint_group<solve_joints>();
+    each_color([this, sums = sum_impulses && last](auto begin, auto end) {
+      (blocks_.*sweep)(begin, end, contact_step_);
+      if (sums) blocks_.sum_impulses(begin, end);
+    });
+    if (last) break;
+    join_if_split();
+    if (!accelerated_) continue;
+    each_block([this](auto begin, auto end) {
+      blocks_.find_change_energy(begin, end, solver_.energy_.data());
+    });
+    once([this, first] {
+      if (first) nncg_ = {};
+      find_beta();
+    });
+    each_color([this](auto begin, auto end) {
+      blocks_.step_along_direction(begin, end, contact_step_, beta_);
+    });
+  }
+}
+
+/// Plans the restitution before the sweeps, which remove all closing speed. A round follows one
+/// that had a rebound: a struck body may now meet a neighbour.
+void ContactSolver::Stages::plan_restitution() {
+  if (!solver_.order_.bouncy() || !solver_.moving_) return;
+  for (int round = 0; round < kRestitutionRounds; ++round) {
+    once([this, round] { rebounds_on_ = any_rebound_.exchange(0) != 0 || round == 0; });
+    each_color([this](auto begin, auto end) {
+      if (rebounds_on_ && blocks_.apply_restitution(begin, end, contact_step_)) any_rebound_ = 1;
+    });
+  }
+}
+
+void ContactSolver::Stages::plan_energy_guard() {
+  each_body<&Stages::record_impulse_work>();
+  once([this] { guard_.find_impulse_scales(solver_.active_); });
+  each_body<&Stages::scale_body>();
+  if (solver_.moving_) {
+    each_color([this](auto begin, auto end) {
+      if (guard_.needs_scaling())
+        blocks_.record_spin_change(begin, end, contact_step_, guard_.scale_of_row());
+    });
+  }
+  each_block([this](auto begin, auto end) {
+    if (guard_.needs_scaling()) blocks_.scale_impulses(begin, end, guard_.scale_of_row());
+  });
+  each_joint_group([this](auto i) {
+    if (guard_.needs_scaling())
+      solver_.joint_solver_.scale_impulses(i, step_, guard_.scale_of_row(), rows_);
+  });
 }
 
 void ContactSolver::Stages::begin(BodySlot body) {
@@ -349,16 +309,14 @@ void ContactSolver::Stages::turn(BodySlot body) {
   const double gained_J =
       solver_.spins_.end(step_, body, row(body), solver_.root_W_[body], bodies_);
   if (guarded_)
-    solver_.energy_guard_.request_rotation_energy(body, gained_J, bodies_.inverse_mass[body],
-                                                  row(body));
+    guard_.request_rotation_energy(body, gained_J, bodies_.inverse_mass[body], row(body));
 }
 
 void ContactSolver::Stages::finish(BodySlot body) {
   const BodyRow& r = row(body);
   const Mat3f& root_W = solver_.root_W_[body];
-  const bool keeps_angular_momentum = guarded_
-                                          ? solver_.energy_guard_.may_keep_angular_momentum(body)
-                                          : !solver_.spins_.gains_energy(body);
+  const bool keeps_angular_momentum =
+      guarded_ ? guard_.may_keep_angular_momentum(body) : !solver_.spins_.gains_energy(body);
   if (!keeps_angular_momentum) solver_.spins_.keep_energy(body, r, root_W, bodies_);
   const RotationState& rotation = solver_.spins_.state(body);
   // Only the change is added, so that the doubles keep what no contact changed.

@@ -37,7 +37,6 @@ struct Share {
   Manifold* manifold;
   std::size_t point;
   BodySlot below;
-  bool on_b;
   Vec3f arm, arm_below;
   float vertical = 0;
 };
@@ -91,8 +90,7 @@ void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manif
       const bool on_b = m.body_b == body;
       for (std::size_t i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[i];
-        shares.push_back(
-            {&m, i, s.below, on_b, on_b ? p.arm_B : p.arm_A, on_b ? p.arm_A : p.arm_B});
+        shares.push_back({&m, i, s.below, on_b ? p.arm_B : p.arm_A, on_b ? p.arm_A : p.arm_B});
       }
     }
     const float weight = -loads[body].impulse_W.dot(up);

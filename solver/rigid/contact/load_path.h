@@ -2,9 +2,7 @@
 // its weight, and the loads from above, to the bodies below it.
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/collide/contacts.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "solver/rigid/body/bodies.h"
 #include "solver/rigid/body/step_context.h"

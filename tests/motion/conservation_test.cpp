@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/random.h"
+#include "tests/fracture/ring.h"
 #include "tests/motion/run.h"
 #include "tests/motion/spy.h"
 
