@@ -69,7 +69,7 @@ std::unique_ptr<Particles> make_particles(const Scene& scene) {
   solver::DebrisAndDustOptions options;
   options.gravity_W = scene.gravity_W;
   options.seed = scene.seed;
-  options.air_cells = kAirCells;
+  options.max_air_cells = kAirCells;
   options.limits = {scene.limits.debris, scene.limits.dust};
   return solver::make_debris_and_dust(options);
 }

@@ -1,8 +1,8 @@
 // Impact probes: the seam by which the world predicts, with the solver's dynamics, the impacts on a
 // cluster of bodies within a step before it decides which of them break.
 //
-// Begin with ImpactProbe, in the order next(), then hold() or release(). A probe works on its own
-// copy of velocities and displacements; the caller copies the result to the world.
+// Begin with ImpactProbe, in the order next(), then keep_unbroken() or release(). A probe works on
+// its own copy of velocities and displacements; the caller copies the result to the world.
 #pragma once
 
 #include <cstdint>
@@ -38,12 +38,12 @@ struct ProbeBody {
   Vec3 angular_velocity_W = Vec3::Zero();
   bool is_supported = false;  ///< Supported by something outside the cluster.
   bool breakable = false;
-  double least_J = 0;   ///< Work up to this cannot break the body.
-  ImpactLimits limits;  ///< An impact that does not exceed these limits cannot break the body.
+  double safe_work_J = 0;  ///< Work up to this cannot break the body.
+  ImpactLimits limits;     ///< An impact that does not exceed these limits cannot break the body.
 
   /// Returns true if an impact with this work, impulse and speed cannot break the body.
   bool withstands(double work_J, double impulse_Ns, double speed_m_s) const {
-    return work_J <= least_J || !limits.exceeded(work_J, impulse_Ns, speed_m_s);
+    return work_J <= safe_work_J || !limits.exceeded(work_J, impulse_Ns, speed_m_s);
   }
 };
 
@@ -129,12 +129,13 @@ struct ProbeBreak {
 class ImpactProbe {
  public:
   virtual ~ImpactProbe() = default;
-  /// Advances to the next event, with a closing energy of at least `least_J`, that loads breakable
-  /// bodies beyond their limits. Returns the loads in order of body; empty at the end of the step.
-  virtual std::vector<ImpactLoad> next(double least_J = 0) = 0;
+  /// Advances to the next event, with a closing energy of at least `min_event_J`, that loads
+  /// breakable bodies beyond their limits. Returns the loads in order of body; empty at the end of
+  /// the step.
+  virtual std::vector<ImpactLoad> next(double min_event_J = 0) = 0;
   /// Marks the loaded bodies as unbroken in this event, so that next() also returns the bodies that
   /// are loaded through them at the same time.
-  virtual void hold() = 0;
+  virtual void keep_unbroken() = 0;
   /// Breaks those of `wanted` whose total energy the event provides, and ends the probe. Exactly
   /// that energy is taken from the motion: v = v₁ + s·(v₀ − v₁), with v₁ and v₀ the motion with and
   /// without the broken bodies in the way. Returns the load indices of the broken bodies; if there
@@ -142,12 +143,12 @@ class ImpactProbe {
   virtual std::vector<std::uint32_t> release(std::span<const ProbeBreak> wanted) = 0;
   /// Ends the probe at a deferred event: bodies move to their positions at the time of the event,
   /// with velocities changed by gravity alone.
-  virtual void pause() = 0;
+  virtual void end_early() = 0;
   /// Work so far, in contact evaluations.
-  virtual std::uint64_t work() const = 0;
+  virtual std::uint64_t evaluations() const = 0;
   /// Returns true if next() has ended the probe at `max_events`, before the end of the step.
   virtual bool reached_limit() const = 0;
-  /// Motion per body after release() or pause(); only entries with `changed` set are valid.
+  /// Motion per body after release() or end_early(); only entries with `changed` set are valid.
   virtual const std::vector<ProbeMotion>& motions() const = 0;
   virtual const std::vector<ProbeBody>& bodies() const = 0;
   virtual const std::vector<ProbeContact>& contacts() const = 0;

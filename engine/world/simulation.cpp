@@ -38,8 +38,8 @@ class StageClock {
 void solve(World& world) {
   const Clock& clock = world.clock;
   const SolveReport report = world.physics->solve(clock.dt_s, clock.substeps);
-  world.conservation.add_solve(report, world.scene.gravity_W.norm() * clock.dt_s);
-  world.conservation.report.joints_lost += world.joints.take_broken(*world.physics);
+  world.log.add_solve(report, world.scene.gravity_W.norm() * clock.dt_s);
+  world.log.report.joints_lost += world.joints.take_broken(*world.physics);
   update_hinges(world);
 }
 
@@ -101,10 +101,10 @@ FramePtr Simulation::next() {
   started = true;
   const TraceSpan span(kStageNames[static_cast<int>(Stage::kSnapshot)]);
   StageClock clock;
-  for (const WorkItem& item : world.physics->take_work()) world.conservation.work.add(item);
+  for (const WorkItem& item : world.physics->take_work()) world.log.work_counts.add(item);
   auto frame = snapshot(world, particles, act.shots_to_come(world.scene),
                         breaks.deferred() + loads.deferred());
-  frame->report.work = world.conservation.work.take();
+  frame->report.work = world.log.work_counts.take();
   clock.end(Stage::kSnapshot, frame->report);
   if (inspects) frame->inspection = sunder::inspect(world, *breaker, *frame);
   return frame;
@@ -118,7 +118,7 @@ void Simulation::advance() {
   const auto timed = [&](Stage stage, const auto& work) {
     const TraceSpan span(kStageNames[static_cast<int>(stage)]);
     work();
-    clock.end(stage, world.conservation.report);
+    clock.end(stage, world.log.report);
   };
   std::vector<ActorImpact> impacts;  // of blasts
   timed(Stage::kAct, [&] { impacts = parts.act.run(world); });
@@ -131,8 +131,8 @@ void Simulation::advance() {
     if (!parts.particles.any() || !world.clock.ends_frame()) return;
     // Faces exposed by a blast emit particles after the blast's impulse, at the speed of their
     // parting.
-    const bool delayed = parts.act.any_blast();
-    WorkSpan span(world.conservation.work, Stage::kParticles, "particles");
+    const bool delayed = parts.act.has_blast_impulse();
+    WorkSpan span(world.log.work_counts, Stage::kParticles, "particles");
     parts.particles.run(world, delayed ? Exposed{} : std::exchange(*world.exposed, {}));
     span.count(parts.particles.alive());
     if (delayed) world.exposed->delay(world.clock.frame_s());

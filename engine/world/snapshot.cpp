@@ -94,7 +94,7 @@ void add_landscape(const World& world, Frame& frame) {
 
 std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
                                 std::span<const Shot> shots_to_come, std::uint32_t carried_over) {
-  Conservation& conservation = world.conservation;
+  RunLog& log = world.log;
   draw_bends(world);
   world.meshes.draw(world.actors);
   auto frame = std::make_shared<Frame>();
@@ -106,13 +106,13 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   frame->names = world.names;
   frame->appearances = world.appearances;
   frame->meshes = world.meshes.publish();
-  frame->report = std::exchange(conservation.report, {});
+  frame->report = std::exchange(log.report, {});
   FrameReport& report = frame->report;
   add_bodies(world, *frame);
   add_landscape(world, *frame);
   for (Actor& actor : world.actors) actor.last_frame_key = actor.key;
   particles.show(*frame);
-  report.mass_kg += conservation.debris_mass_kg + conservation.removed_mass_kg;
+  report.mass_kg += log.debris_mass_kg + log.removed_mass_kg;
   for (const Shot& shot : shots_to_come) {
     report.mass_kg += ball_mass_kg(shot.ball, *world.materials);
     for (const Solid& link : shot.links)
@@ -121,8 +121,8 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   report.penetrations_m = world.physics->penetrations();
   report.carried_over = carried_over;
   report.limits_hit = report.limits.sum();
-  conservation.end_frame(report, frame->index == 0);
-  frame->breaks = std::exchange(conservation.breaks, {});
+  log.end_frame(report, frame->index == 0);
+  frame->breaks = std::exchange(log.breaks, {});
   return frame;
 }
 

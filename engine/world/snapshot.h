@@ -12,7 +12,7 @@
 
 namespace sunder {
 
-/// Returns a new frame, and resets the counts of the current frame in the conservation records. The
+/// Returns a new frame, and resets the counts of the current frame in the run log. The
 /// mass of `shots_to_come` is included.
 std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
                                 std::span<const Shot> shots_to_come, std::uint32_t carried_over);

@@ -68,7 +68,7 @@ void drop_own_directions(const ConvexPolyhedron& region, std::vector<Vec3>& dire
 
 }  // namespace
 
-bool VacdPiece::is_internal() const {
+bool VacdPiece::is_inside_mesh() const {
   return std::none_of(mesh.faces.begin(), mesh.faces.end(),
                       [](const PolygonMesh::Face& face) { return face.id.none(); });
 }
@@ -100,7 +100,7 @@ std::vector<VacdPiece> voronoi_pieces(const PolygonMesh& mesh, std::span<const V
 }
 
 ConvexPolyhedron fitted_region(const VacdPiece& piece, const Fit& fit) {
-  if (piece.is_internal()) return piece.region;
+  if (piece.is_inside_mesh()) return piece.region;
   const std::span<const Vec3> points = piece.mesh.vertices;
   std::vector<Vec3> directions = fit_directions(points, fit);
   drop_own_directions(piece.region, directions);

@@ -18,7 +18,7 @@ struct VacdPiece {
   std::uint32_t shell = 0;  ///< Index of the mesh's shell.
 
   /// Returns true if the mesh fills the region: it has no part of the original surface.
-  bool is_internal() const;
+  bool is_inside_mesh() const;
 };
 
 /// Allocates plane ids that are unique in a compound.

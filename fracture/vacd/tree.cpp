@@ -76,7 +76,7 @@ std::vector<std::uint32_t> Tree::loosest() const {
   std::vector<std::uint32_t> order;
   for (std::uint32_t n = 0; n < branches_.size(); ++n) {
     const Branch& branch = branches_[n];
-    if (branch.tried || !branch.children.empty() || branch.piece.is_internal()) continue;
+    if (branch.tried || !branch.children.empty() || branch.piece.is_inside_mesh()) continue;
     const bool loose =
         limits_.convexes > 0 && branch.slack() > kTightEnough * hull_m3_ / limits_.convexes;
     if (loose || too_many_polygons(branch)) order.push_back(n);

@@ -136,7 +136,7 @@ std::vector<Part> fitted_parts(const RepairedMesh& mesh, std::vector<VacdPiece> 
     VacdPiece& piece = pieces[p];
     parts[p].polyhedron = fitted_region(piece, options.fit);
     parts[p].material = material_of(piece.mesh, options, of_shells[piece.shell]);
-    if (piece.is_internal()) return;
+    if (piece.is_inside_mesh()) return;
     if (is_painted(piece.mesh, options) || !renders_like(parts[p].polyhedron, piece.mesh)) {
       parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
     }

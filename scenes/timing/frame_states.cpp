@@ -156,7 +156,7 @@ std::optional<int> first_difference(const std::string& known, std::span<const st
 }
 
 FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
-                               const std::string& file, bool whole) {
+                               const std::string& file, bool with_bench_state) {
   FrameComparison comparison;
   std::vector<Verdict>& verdicts = comparison.verdicts;
   const std::string scene = scene_file(run.scene).stem().string();
@@ -164,7 +164,8 @@ FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
     const auto known = book.find(frames_key(run.name, preset));
     if (known == book.end()) continue;
     std::optional<StoredState> all;
-    if (whole && run.load.set.empty()) all = find_stored_state(book, scene, preset, file);
+    if (with_bench_state && run.load.set.empty())
+      all = find_stored_state(book, scene, preset, file);
     const int frames = static_cast<int>(known->second.size() / kDigits);
     const Stopwatch watch;
     FramePtr frame;

@@ -1,6 +1,7 @@
 // Comparison of every frame of a run with stored hashes, to find the first frame that differs.
-// Stored hashes (hash_book.h) have the key frames/NAME/PRESET and four hexadecimal digits of the
-// state hash of each frame. Few digits suffice, because a run that has diverged stays different.
+// Stored hashes (hash_book.h) have the key frames/NAME/PRESET and the first four hexadecimal
+// digits of the state hash of each frame, joined. Few digits suffice, because a run that has
+// diverged stays different.
 #pragma once
 
 #include <optional>
@@ -17,13 +18,14 @@ namespace sunder::scenes {
 
 /// Returns the stored digits for the state hashes of a run's frames.
 std::string frame_digits(std::span<const std::uint64_t> run);
-/// Returns the first known frame that the run lacks or that differs; nothing if all are equal.
+/// Returns the index of the first stored frame that the run lacks or that differs; nothing if all
+/// are equal.
 std::optional<int> first_difference(const std::string& known, std::span<const std::uint64_t> run);
 
 /// A scene that is simulated and compared with its stored hashes.
 struct GuardedRun {
   std::string name;   ///< Name in the keys of stored hashes.
-  std::string scene;  ///< File or name.
+  std::string scene;  ///< Scene file, or name of a scene.
   LoadOptions load;
   int frame = 0;  ///< Last frame to store if nothing breaks, unless the script begins later.
   bool is_drawn = false;  ///< True if states are stored up to `frame` at the preset of `load`.
@@ -39,10 +41,10 @@ struct FrameComparison {
 
 /// Simulates the scene at every preset with stored hashes and returns a verdict for each:
 /// "simulation at realtime" and so on. Without any stored hashes the only verdict is a failure.
-/// `whole`: the state hashes of `sunder bench` are checked as well, if the scene was not changed by
-/// --set. `file` is the name of the file of hashes in messages. Throws InputError.
+/// `with_bench_state`: also compares the hash that `sunder bench` stores, unless --set changed the
+/// scene. `file` is the name of the file of hashes in messages. Throws InputError.
 FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
-                               const std::string& file, bool whole);
+                               const std::string& file, bool with_bench_state);
 
 /// Stores the hashes of the run at every preset, up to 50 frames (at the run's own preset) or 8
 /// frames (at others) after the first break that is not before the script's first action, and up to

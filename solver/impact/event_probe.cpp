@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kSingleEvents = 12;
 // Bound on closing speeds after other contacts were solved, relative to the event's highest.
 constexpr double kMaxSpeedUp = 2;
-// A contact with less than this share of least_J_ as closing energy starts no event.
+// A contact with less than this share of min_safe_work_J_ as closing energy starts no event.
 constexpr double kMinEventShare = 0.1;
 // Contact softness relative to the inverse mass of the heaviest body, so that supports share loads.
 constexpr double kSoftness = 1e-5;
@@ -49,7 +49,7 @@ EventProbe::EventProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   }
   const Linkage linkage(make_joint_rows(bodies_, poses_after(bodies_, displacements_), joints_));
   for (const ProbeBody& body : bodies_) {
-    if (body.breakable) least_J_ = std::min(least_J_, body.least_J);
+    if (body.breakable) min_safe_work_J_ = std::min(min_safe_work_J_, body.safe_work_J);
   }
   rows_.reserve(contacts_.size());
   for (const ProbeContact& c : contacts_) {
@@ -57,7 +57,7 @@ EventProbe::EventProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
     linkage.add_joint_responses(rows_.back(), bodies_.size());
     gaps_m_.push_back(c.separation_m);
   }
-  work_ = contacts_.size();
+  evaluations_ = contacts_.size();
   first_rows_.assign(rows_.begin(), rows_.end());
   speeds_m_s_.resize(rows_.size());
   double least = std::numeric_limits<double>::infinity();
@@ -128,7 +128,7 @@ double EventProbe::time_to_next_event_s() const {
     double square = speed * speed;  // of the closing speed at the time of closing
     if (falls_[row.a] || falls_[row.b]) square += 2 * row.speed(acceleration) * std::max(0.0, gap);
     if (square < rest_speed_m_s_ * rest_speed_m_s_ ||
-        square < 2 * kMinEventShare * least_J_ * row.inverse_mass)
+        square < 2 * kMinEventShare * min_safe_work_J_ * row.inverse_mass)
       continue;
     const double closing = speed + std::sqrt(square);  // twice the mean closing speed
     if (closing <= 0) continue;
@@ -166,7 +166,7 @@ void EventProbe::advance_time(double time_s) {
 /// or if it would be one event too many.
 bool EventProbe::advance_to_event() {
   const bool is_too_many = ++events_ > max_events_;
-  if (!is_too_many) work_ += contacts_.size();
+  if (!is_too_many) evaluations_ += contacts_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) speeds_m_s_[i] = rows_[i].speed(velocities_);
   find_falling();
   const double wait = time_to_next_event_s();
@@ -200,7 +200,7 @@ ClusterMotion EventProbe::solve(const std::vector<std::uint8_t>& removed) {
   }
   ClusterMotion solved =
       solve_cluster(rows_, closed_, active, softness_, fastest_m_s_, velocities_);
-  work_ += solved.work;
+  evaluations_ += solved.work;
   return solved;
 }
 
@@ -220,11 +220,11 @@ bool EventProbe::may_break_any() const {
   return false;
 }
 
-std::vector<ImpactLoad> EventProbe::next(double least_J) {
+std::vector<ImpactLoad> EventProbe::next(double min_event_J) {
   for (;;) {
     if (!with_) {  // between events
       if (!advance_to_event()) return {};
-      if (closing_J_ < std::max(least_J, least_J_)) continue;
+      if (closing_J_ < std::max(min_event_J, min_safe_work_J_)) continue;
       for (std::size_t b = 0; b < bodies_.size(); ++b) undecided_[b] = bodies_[b].breakable;
       with_ = solve(std::vector<std::uint8_t>(bodies_.size(), 0));
     }
@@ -247,7 +247,7 @@ void EventProbe::mark_moved(const ClusterMotion& motion) {
   }
 }
 
-void EventProbe::hold() {
+void EventProbe::keep_unbroken() {
   for (const ImpactLoad& load : loads_) undecided_[load.body] = 0;
 }
 
@@ -324,7 +324,7 @@ void EventProbe::finish(const ClusterMotion& without, double blend) {
   }
 }
 
-void EventProbe::pause() {
+void EventProbe::end_early() {
   motions_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const ProbeBody& body = bodies_[b];
@@ -335,12 +335,12 @@ void EventProbe::pause() {
 }
 
 /// Returns the undecided body to which the work at a contact is attributed: the one with the
-/// smaller least_J if both are undecided.
+/// smaller safe_work_J if both are undecided.
 std::uint32_t EventProbe::body_to_load(const ProbeContact& c) const {
   if (!undecided_[c.a]) return c.b;
   if (!undecided_[c.b]) return c.a;
   const ProbeBody &a = bodies_[c.a], &b = bodies_[c.b];
-  return std::pair(a.least_J, a.key) < std::pair(b.least_J, b.key) ? c.a : c.b;
+  return std::pair(a.safe_work_J, a.key) < std::pair(b.safe_work_J, b.key) ? c.a : c.b;
 }
 
 std::vector<ImpactLoad> EventProbe::loads(const ClusterMotion& without) const {

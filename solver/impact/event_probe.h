@@ -1,5 +1,5 @@
-// The solver's impact probe, which solves the contacts of a cluster in the order in which they
-// close.
+// The solver's impact probe, which solves the contacts of a cluster event by event: the first twelve
+// events in the order in which contacts close, later ones by closing energy.
 //
 // Begin with engine/model/impact_probe.h for what a probe promises, then EventProbe.
 #pragma once
@@ -33,12 +33,12 @@ class EventProbe final : public ImpactProbe {
                    cluster.rest_speed_m_s, cluster.gravity_W, std::move(cluster.joints),
                    cluster.max_events) {}
 
-  std::vector<ImpactLoad> next(double least_J = 0) override;
-  void hold() override;
+  std::vector<ImpactLoad> next(double min_event_J = 0) override;
+  void keep_unbroken() override;
   std::vector<std::uint32_t> release(std::span<const ProbeBreak> wanted) override;
-  void pause() override;
+  void end_early() override;
 
-  std::uint64_t work() const override { return work_; }
+  std::uint64_t evaluations() const override { return evaluations_; }
   bool reached_limit() const override { return reached_limit_; }
   const std::vector<ProbeMotion>& motions() const override { return motions_; }
   const std::vector<ProbeBody>& bodies() const override { return bodies_; }
@@ -46,7 +46,8 @@ class EventProbe final : public ImpactProbe {
   const std::vector<ProbeJoint>& joints() const override { return joints_; }
 
  private:
-  /// Kinetic energy of v₁ + s·(v₀ − v₁) relative to v₁, as the polynomial a·s² + b·s.
+  /// Kinetic energy at the velocities v₁ + s·(v₀ − v₁) minus that at v₁, as a·s² + b·s; v₁ and v₀
+  /// are the velocities with and without the bodies that break.
   struct EnergyDifference {
     double a_J = 0, b_J = 0;
     double blend_factor(double energy_J) const;
@@ -75,26 +76,26 @@ class EventProbe final : public ImpactProbe {
   double rest_speed_m_s_;
   std::uint32_t max_events_;
   std::vector<BodyVelocity> gravity_;  ///< Per body: acceleration by gravity that the joints allow.
-  /// Smallest least_J of the breakable bodies.
-  double least_J_ = std::numeric_limits<double>::infinity();
+  /// Smallest safe_work_J of the breakable bodies.
+  double min_safe_work_J_ = std::numeric_limits<double>::infinity();
   double softness_ = 0;  ///< Contact softness: speed per impulse.
   double time_s_ = 0;
   std::uint32_t events_ = 0;
   bool reached_limit_ = false;
-  std::uint64_t work_ = 0;
+  std::uint64_t evaluations_ = 0;
   std::vector<BodyVelocity> velocities_;     ///< Per body, at time_s_.
   std::vector<BodyVelocity> displacements_;  ///< Per body, since the start of the step.
-  std::vector<std::uint8_t> falls_;  ///< Per body: true if it is in free fall since the last event.
+  std::vector<std::uint8_t> falls_;      ///< Per body: true if it falls freely to the next event.
   std::vector<double> fall_times_s_;     ///< Per body: total time in free fall.
   std::vector<std::uint8_t> moved_;      ///< Per body: true if an impulse has acted on it.
   std::vector<std::uint32_t> closed_;    ///< Indices of the closed contacts, ascending.
   std::vector<RowJacobian> first_rows_;  ///< Per contact: at the start of the step.
-  std::vector<ContactRow> rows_;         ///< Per contact: at its last closing; else as first_rows_.
+  std::vector<ContactRow> rows_;         ///< Per contact: at the last event at which it touched.
   std::vector<double> gaps_m_;           ///< Per contact: separation at time_s_.
   std::vector<double> speeds_m_s_;       ///< Per contact: closing speed after the last event.
   double fastest_m_s_ = 0;               ///< Highest closing speed at this event.
   double closing_J_ = 0;                 ///< Upper bound of the energy of this event.
-  std::vector<std::uint8_t> undecided_;  ///< Per body: may still break in this event.
+  std::vector<std::uint8_t> undecided_;  ///< Per body: true if it may still break in this event.
   std::vector<ImpactLoad> loads_;        ///< Loads of this event.
   std::optional<ClusterMotion> with_;  ///< Motion with all bodies in the way; empty between events.
   std::vector<ProbeMotion> motions_;

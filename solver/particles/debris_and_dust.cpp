@@ -13,7 +13,7 @@ class DebrisAndDust final : public Particles {
   explicit DebrisAndDust(const DebrisAndDustOptions& options)
       : seed_(options.seed),
         debris_(options.limits.debris, options.gravity_W),
-        dust_(options.limits.dust, options.gravity_W, options.air_cells) {}
+        dust_(options.limits.dust, options.gravity_W, options.max_air_cells) {}
 
   void emit(std::span<const ExposedPolygon> faces) override {
     const CapacityShares shares = capacity_shares(faces, debris_, dust_);

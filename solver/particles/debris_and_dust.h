@@ -13,7 +13,7 @@ struct DebrisAndDustOptions {
   ParticleLimits limits;
   /// Greatest number of air cells per axis, used while there is dust: multiples of 8, at most 128
   /// along x. The cost of dust grows with their product.
-  Eigen::Vector3i air_cells = Eigen::Vector3i(64, 32, 64);
+  Eigen::Vector3i max_air_cells = Eigen::Vector3i(64, 32, 64);
 };
 
 /// Makes the solver. Results are bit-identical for any number of threads (engine/base/parallel.h).

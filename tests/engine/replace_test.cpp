@@ -127,7 +127,7 @@ TEST(ApplyBreak, PiecesKeepTheStressCacheAndRootKeyOfTheirActor) {
   EXPECT_EQ(piece.root_key, left.key);
   EXPECT_EQ(piece.weight.mass_kg, 2000);
   EXPECT_EQ(column.physics->bodies[piece.body.slot].desc.tag, piece.key);
-  EXPECT_EQ(column.world.conservation.debris_mass_kg, 0);
+  EXPECT_EQ(column.world.log.debris_mass_kg, 0);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr double kDt = 1.0 / 60;
 
 DebrisAndDustOptions small_options() {
   DebrisAndDustOptions options;
-  options.air_cells = Eigen::Vector3i(32, 16, 32);
+  options.max_air_cells = Eigen::Vector3i(32, 16, 32);
   return options;
 }
 

@@ -24,10 +24,10 @@ ProbeBody ball(double mass_kg, const Vec3& velocity_W) {
 }
 
 /// Fixed to the world.
-ProbeBody pane(double least_J = 0) {
+ProbeBody pane(double safe_work_J = 0) {
   ProbeBody body;
   body.breakable = true;
-  body.least_J = least_J;
+  body.safe_work_J = safe_work_J;
   return body;
 }
 
@@ -77,13 +77,13 @@ TEST(EventProbe, FindsTheWorkOfABlowPassedOnByAPlate) {
 
 TEST(EventProbe, KnowsHowMuchItHasLookedAt) {
   EventProbe probe({ball(1, Vec3(0, -3, 0)), pane()}, {contact(0, 1)}, kStep_s, kStill_m_s);
-  EXPECT_EQ(probe.work(), 1u) << "its contact";
+  EXPECT_EQ(probe.evaluations(), 1u) << "its contact";
   ASSERT_EQ(probe.next().size(), 1u);
-  const std::uint64_t once = probe.work();
+  const std::uint64_t once = probe.evaluations();
   EXPECT_GT(once, 2u) << "an event, and what it does";
-  probe.hold();
+  probe.keep_unbroken();
   EXPECT_TRUE(probe.next().empty());
-  EXPECT_GT(probe.work(), once);
+  EXPECT_GT(probe.evaluations(), once);
 }
 
 TEST(EventProbe, TellsWhichWayABlowGoesWhicheverBodyComesFirst) {
@@ -281,19 +281,19 @@ TEST(EventProbe, LoadsWhatIsBehindASolidThatHolds) {
   // A ball on a loose brick on a pane: if the brick holds, the pane has to bear the rest.
   ProbeBody brick = ball(4, Vec3::Zero());
   brick.breakable = true;
-  brick.least_J = 0.01;
+  brick.safe_work_J = 0.01;
   EventProbe probe({pane(0.01), brick, ball(2, Vec3(0, -10, 0))}, {contact(1, 0), contact(2, 1)},
                    kStep_s, kStill_m_s);
   auto loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
   EXPECT_EQ(loads[0].body, 1u);
   EXPECT_TRUE(probe.release({}).empty());
-  probe.hold();
+  probe.keep_unbroken();
   loads = probe.next();
   ASSERT_EQ(loads.size(), 1u);
   EXPECT_EQ(loads[0].body, 0u);
   EXPECT_NEAR(loads[0].work_J, 0.5 * 2 * 2 * 100 / 6.0, 1.0);
-  probe.hold();
+  probe.keep_unbroken();
   EXPECT_TRUE(probe.next().empty());
 }
 

@@ -51,7 +51,7 @@ TEST(Features, AreOffAfterTurnOff) {
 
 TEST(Features, AreOnWhereTheSceneSaysSo) {
   const Scene plain = of("[[ball]]\nposition = [0, 5, 0]\n");
-  EXPECT_EQ(state(plain, "fracture"), "off: no solid is breakable");
+  EXPECT_EQ(state(plain, "fracture"), "off: no material of a solid has a fracture pattern");
   EXPECT_EQ(state(plain, "debris"), "off: no solid is breakable");
   EXPECT_TRUE(state(plain, "restitution").starts_with("off: "));
   EXPECT_TRUE(state(plain, "rolling_resistance").starts_with("off: "));

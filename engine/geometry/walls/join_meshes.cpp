@@ -1,6 +1,7 @@
 // The first steps of outer_surface(): puts all faces on common points and finds walls.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 #include "engine/geometry/walls/piece_surface.h"

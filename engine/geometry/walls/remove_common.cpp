@@ -3,6 +3,7 @@
 // remain there. An edge where a face remains on one side only is part of the outline of that face.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/geometry/walls/piece_surface.h"
 

@@ -1,6 +1,7 @@
 // Splitting of edges in the planes of walls, a step of outer_surface().
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/geometry/walls/piece_surface.h"

@@ -61,7 +61,7 @@ void shoot(World& world, const Shot& shot) {
   const auto number = static_cast<std::size_t>(&shot - scene.shots.data());
   for (Actor& actor : world.actors) {
     if (actor.key < first_key) continue;
-    world.conservation.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
+    world.log.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
     actor.name = static_cast<std::uint32_t>(scene.solids.size() + scene.balls.size() + number);
   }
 }
@@ -70,7 +70,7 @@ void remove_actors(World& world, const std::vector<std::size_t>& gone) {
   std::vector<BodyId> bodies;
   for (const std::size_t i : gone) {
     bodies.push_back(world.actors[i].body);
-    world.conservation.report.joints_lost += world.joints.cut(*world.physics, world.actors[i].key);
+    world.log.report.joints_lost += world.joints.cut(*world.physics, world.actors[i].key);
   }
   world.physics->replace(bodies, {});
   for (auto i = gone.rbegin(); i != gone.rend(); ++i) world.actors.erase(*i);
@@ -110,8 +110,8 @@ void remove(World& world, const Removal& removal) {
   }
   for (const std::size_t i : gone) {
     const Actor& actor = world.actors[i];
-    world.conservation.removed_mass_kg += actor.weight.mass_kg;
-    world.conservation.report.energy.script -= kinetic_J(actor, world.physics->state(actor.body));
+    world.log.removed_mass_kg += actor.weight.mass_kg;
+    world.log.report.energy.script -= kinetic_J(actor, world.physics->state(actor.body));
   }
   remove_actors(world, gone);
 }
@@ -138,8 +138,8 @@ void age(World& world) {
   for (const std::size_t i : resting) {
     const Actor& actor = world.actors[i];
     note_chip(world, actor.structure.compound(), motion_of(actor, states[actor.body]));
-    world.conservation.debris_mass_kg += actor.weight.mass_kg;
-    ++world.conservation.report.aged;
+    world.log.debris_mass_kg += actor.weight.mass_kg;
+    ++world.log.report.aged;
   }
   if (!resting.empty()) remove_actors(world, resting);
 }
@@ -155,7 +155,7 @@ void apply_drive(World& world, const Drive& drive) {
     if (!actor || actor->is_static) continue;
     const BodyState state = world.physics->state(actor->body);
     const auto push = [&](const Vec3& impulse, const Vec3& arm) {
-      world.conservation.report.energy.drives +=
+      world.log.report.energy.drives +=
           push_actor(world, *actor, impulse, state.X_WB.position + arm);
     };
     if (drive.velocity_W) {

@@ -25,7 +25,7 @@ class ActStage {
   void push(World& world);
 
   /// True if a blast has not applied its impulse yet.
-  bool any_blast() const { return !blasts_.empty(); }
+  bool has_blast_impulse() const { return !blasts_.empty(); }
 
   std::span<const Shot> shots_to_come(const Scene& scene) const;
 

@@ -223,8 +223,7 @@ void apply_impulse(World& world, const Blast& blast, const Cover& cover, const A
                 X_WR.position);
   }
   if (impulse.sum_Ns <= 0) return;
-  world.conservation.report.energy.drives +=
-      push_actor(world, actor, impulse.impulse_W, impulse.point_W());
+  world.log.report.energy.drives += push_actor(world, actor, impulse.impulse_W, impulse.point_W());
 }
 
 /// Applies a blast's impulse to a chip at its current position.

@@ -15,8 +15,7 @@ void set_kinematic(World& world, Actor& actor, bool is_kinematic) {
   set_strength(world, actor);
   const BodyDesc body = make_body_desc(world, actor, motion);
   actor.body = world.physics->replace(std::span(&actor.body, 1), std::span(&body, 1))[0];
-  world.conservation.report.energy.script +=
-      kinetic_J(actor, world.physics->state(actor.body)) - before_J;
+  world.log.report.energy.script += kinetic_J(actor, world.physics->state(actor.body)) - before_J;
   world.joints.reattach(*world.physics, actor);
 }
 

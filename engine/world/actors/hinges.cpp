@@ -62,7 +62,7 @@ void tear(World& world, const Joints::Live& joint) {
   event.point_W = rest_pose(actor, world.physics->state(actor.body).X_WB) * joint.a.anchor_R;
   for (const double area_m2 : hinge.areas_m2) event.new_area_m2 += area_m2;
   event.pieces = 2;
-  world.conservation.breaks.push_back(event);
+  world.log.breaks.push_back(event);
   world.joints.cut(*world.physics, joint.id);
 }
 
@@ -90,8 +90,8 @@ void update_hinges(World& world) {
   for (const PlasticFlow& flowed : world.physics->plastic_flows()) {
     Joints::Live& joint = world.joints.at(flowed.joint);
     Hinge& hinge = *joint.hinge;
-    world.conservation.add_plastic_work(flowed.work_J);
-    world.conservation.report.energy.joints -= flowed.work_J;  // the solve has counted it there
+    world.log.add_plastic_work(flowed.work_J);
+    world.log.report.energy.joints -= flowed.work_J;  // the solve has counted it there
     hinge.flowed_step = world.clock.step;
     hinge.rejoin_failed = false;
     hinge.strain += strain_of(hinge.section, flowed);

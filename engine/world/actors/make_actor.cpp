@@ -118,7 +118,7 @@ void set_least(const World& world, Actor& actor) {
 
 void count_limits(World& world, const Actor& actor) {
   if (!actor.stress.breakable) return;
-  LimitsHit& limits = world.conservation.report.limits;
+  LimitsHit& limits = world.log.report.limits;
   if (!reports_contact_loads(world, actor)) {
     ++limits[Limit::kLoadedConvexes];
   } else if (std::ranges::any_of(actor.materials, [&](MaterialIndex index) {

@@ -67,10 +67,10 @@ Actor make_merged_actor(World& world, Actor& a, const Actor& b, const BreakEdit&
   both.born_step = world.clock.step + 1;
   set_least(world, both);  // recomputed, as it is a fragment
   world.meshes.add_to(std::span(&both, 1), drawn_before);
-  world.conservation.debris_mass_kg +=
+  world.log.debris_mass_kg +=
       a.weight.mass_kg + b.weight.mass_kg - both.weight.mass_kg;  // rounding
   const auto [motion, lost_J] = merged_motion(world, a, b, both.weight);
-  world.conservation.add_plastic_work(lost_J);
+  world.log.add_plastic_work(lost_J);
   const BodyDesc body = make_body_desc(world, both, motion);
   const std::array<BodyId, 2> gone{a.body, b.body};
   both.body = world.physics->replace(gone, std::span(&body, 1))[0];
@@ -86,8 +86,8 @@ void merge(World& world, std::uint32_t key, std::uint32_t other, const Rejoined&
     BreakEdit edit = rejoined.edit;
     apply_break(world, key, edit);
     const Actor& b = *world.actors.find(other);
-    world.conservation.debris_mass_kg += b.weight.mass_kg;
-    world.conservation.add_plastic_work(kinetic_J(b, world.physics->state(b.body)));
+    world.log.debris_mass_kg += b.weight.mass_kg;
+    world.log.add_plastic_work(kinetic_J(b, world.physics->state(b.body)));
     world.physics->replace(std::span(&b.body, 1), {});
   } else {
     Actor& a = *world.actors.find(key);
@@ -97,7 +97,7 @@ void merge(World& world, std::uint32_t key, std::uint32_t other, const Rejoined&
       const auto at = std::ranges::lower_bound(slots, slot);
       if (!slot.none()) slot = ConvexSlot(at - slots.begin());
     }
-    world.conservation.report.joints_lost +=
+    world.log.report.joints_lost +=
         world.joints.reassign_ends(*world.physics, a, false, std::span(&both, 1));
     world.actors.erase(world.actors.place_of(a));
     key = both.key;

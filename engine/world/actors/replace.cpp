@@ -128,7 +128,7 @@ struct Pieces {
     set_least(world, piece);  // recomputed, as it is a fragment
     count_limits(world, piece);
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
-    world.conservation.debris_mass_kg -= piece.weight.mass_kg;
+    world.log.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(make_body_desc(world, piece, motion));
     return piece.key;
   }
@@ -210,7 +210,7 @@ std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdi
 
   Pieces pieces;
   std::vector<std::uint32_t> keys{stays ? parent.key : kNoActorKey};  // indexed as in exposed faces
-  world.conservation.debris_mass_kg += stays ? removed_kg : parent.weight.mass_kg;
+  world.log.debris_mass_kg += stays ? removed_kg : parent.weight.mass_kg;
   if (!stays && !parent.structure.empty()) {
     const Compound rest = parent.structure.compound();
     parent.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
@@ -237,9 +237,9 @@ std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdi
     ids = world.physics->replace(std::span(&parent.body, 1), pieces.bodies);
   }
   for (std::size_t i = 0; i < ids.size(); ++i) pieces.actors[i].body = ids[i];
-  world.conservation.report.joints_lost +=
+  world.log.report.joints_lost +=
       world.joints.reassign_ends(*world.physics, parent, stays, pieces.actors);
-  EnergyFlows& energy = world.conservation.report.energy;
+  EnergyFlows& energy = world.log.report.energy;
   const double lost_J = before_J - kinetic_J_of(world, pieces.actors);
   if (parent.is_static) {  // a kinematic parent moves on unchanged
     energy.script -= lost_J;
@@ -249,7 +249,7 @@ std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdi
   if (!parent.is_static) {
     const Vec3 after =
         momentum_of(world, pieces.actors) + debris_momentum(parent, pieces.actors, motion);
-    world.conservation.momentum_error_Ns += (after - before).norm();
+    world.log.momentum_error_Ns += (after - before).norm();
   }
   add_hinges(world, parent, edit, pieces.actors, keys);
   if (!stays) world.actors.erase(world.actors.place_of(parent));

@@ -14,11 +14,11 @@
 #include "engine/model/scene.h"
 #include "engine/world/actors/actors.h"
 #include "engine/world/actors/clock.h"
-#include "engine/world/actors/conservation.h"
 #include "engine/world/actors/exposed.h"
 #include "engine/world/actors/joints.h"
 #include "engine/world/actors/landscape.h"
 #include "engine/world/actors/meshes.h"
+#include "engine/world/actors/run_log.h"
 
 namespace sunder {
 
@@ -34,7 +34,7 @@ struct World {
   Joints joints;
   Meshes meshes;
   Landscape landscape;
-  Conservation conservation;
+  RunLog log;
   std::uint64_t next_event =
       1;  ///< Number of the next event, which names the planes that it makes.
   std::optional<Exposed> exposed;  ///< None in a run without particles.

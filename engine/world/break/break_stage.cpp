@@ -98,7 +98,7 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
 
 bool is_worth_deferring(const World& world, const Trial& trial) {
   return std::ranges::any_of(trial.planned, [&](const PlannedBreak& planned) {
-    return planned.impact.energy_J > kMinDeferredShare * world.conservation.kinetic_J;
+    return planned.impact.energy_J > kMinDeferredShare * world.log.kinetic_J;
   });
 }
 
@@ -134,11 +134,11 @@ bool carry_out_breaks(World& world, const Breaker& breaker, Trial& trial,
   }
   const std::vector<std::uint32_t> broken = trial.probe->release(wanted);
   if (broken.empty()) return false;
-  WorkSpan span(world.conservation.work, Stage::kBreak, "breaks carried out");
+  WorkSpan span(world.log.work_counts, Stage::kBreak, "breaks carried out");
   span.count(broken.size());
   const auto bends = [&](auto load) { return trial.planned[of_load[load]].only_bends(); };
   // If all broken bodies only bend, they stay in the way, and the next round probes them.
-  EnergyFlows& energy = world.conservation.report.energy;
+  EnergyFlows& energy = world.log.report.energy;
   if (!std::ranges::all_of(broken, bends)) energy.contacts -= apply_motion(world, *trial.probe);
   for (const std::uint32_t load : broken) {
     PlannedBreak& planned = trial.planned[of_load[load]];
@@ -183,9 +183,9 @@ PlannedBreak planned_by_blast(const Actor& actor, const ActorImpact& impact) {
 }
 
 std::vector<Trial> find_trials(World& world, const DeferredImpacts& deferred, double min_energy_J) {
-  WorkSpan span(world.conservation.work, Stage::kBreak, "clusters found");
+  WorkSpan span(world.log.work_counts, Stage::kBreak, "clusters found");
   std::vector<Trial> trials;
-  LimitsHit& limits = world.conservation.report.limits;
+  LimitsHit& limits = world.log.report.limits;
   for (std::unique_ptr<ImpactProbe>& probe : find_clusters(world, deferred, min_energy_J, limits))
     trials.push_back({std::move(probe)});
   span.count(trials.size());
@@ -193,7 +193,7 @@ std::vector<Trial> find_trials(World& world, const DeferredImpacts& deferred, do
 }
 
 void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
-  WorkSpan span(world.conservation.work, Stage::kBreak, "breaks planned");
+  WorkSpan span(world.log.work_counts, Stage::kBreak, "breaks planned");
   span.count(all.size());
   plan_all(world, breaker, all);
   WorkItem parts{Stage::kBreak, "parts cut"}, visits{Stage::kBreak, "bonds visited"};
@@ -202,8 +202,8 @@ void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> a
     for (const Compound& piece : planned->edit.loose.pieces) parts.count += piece.convexes.size();
     visits.count += planned->stressed.work;
   }
-  world.conservation.work.add(parts);
-  world.conservation.work.add(visits);
+  world.log.work_counts.add(parts);
+  world.log.work_counts.add(visits);
 }
 
 std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
@@ -249,7 +249,7 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
 /// Probes run in batches, those with the most energy first, so that the budget can stop them. A
 /// probe with the initial state of an earlier one of the step without a break is not run again.
 void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
-  WorkSpan span(world.conservation.work, Stage::kBreak, "clusters asked");
+  WorkSpan span(world.log.work_counts, Stage::kBreak, "clusters asked");
   std::vector<Trial*> due;
   for (Trial& trial : trials) {
     if (!std::exchange(trial.loads_known, true)) due.push_back(&trial);
@@ -268,9 +268,9 @@ void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
     });
     std::uint64_t evaluations = 0;
     for (Trial* trial : batch) {
-      const std::uint64_t work = trial->probe->work();
+      const std::uint64_t work = trial->probe->evaluations();
       evaluations += work - std::exchange(trial->charged, work);
-      if (trial->probe->reached_limit()) ++world.conservation.report.limits[Limit::kProbeEvents];
+      if (trial->probe->reached_limit()) ++world.log.report.limits[Limit::kProbeEvents];
     }
     budget_.charge(evaluations / kContactEvaluationsPerPart);
     visits.count += evaluations;
@@ -280,12 +280,12 @@ void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
     if (trial.loads.empty() && !unbroken_probes_.insert(trial.fingerprint).second) --probes_run;
   }
   span.count(probes_run);
-  world.conservation.work.add(visits);
+  world.log.work_counts.add(visits);
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
 }
 
 double BreakStage::min_impact_energy_J(const World& world) const {
-  return budget_.left() > 0 ? 0 : kMinDeferredShare * world.conservation.kinetic_J;
+  return budget_.left() > 0 ? 0 : kMinDeferredShare * world.log.kinetic_J;
 }
 
 bool BreakStage::prepare_within_budget(World& world, const Breaker& breaker,
@@ -309,8 +309,8 @@ void BreakStage::share_budget(std::span<PlannedBreak* const> resumable) const {
 }
 
 void BreakStage::defer(World& world, Trial& trial) {
-  trial.probe->pause();
-  world.conservation.report.energy.gravity += apply_motion(world, *trial.probe);
+  trial.probe->end_early();
+  world.log.report.energy.gravity += apply_motion(world, *trial.probe);
   deferred_impacts_.add(world, *trial.probe);
 }
 
@@ -387,7 +387,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
       } else if (trial.may_defer) {
         defer(world, trial);
       } else {
-        ++world.conservation.report.limits[rounds_left ? Limit::kPartsAFrame : Limit::kBreakRounds];
+        ++world.log.report.limits[rounds_left ? Limit::kPartsAFrame : Limit::kBreakRounds];
         trial.planned.clear();  // nothing breaks
         to_plan.push_back(std::move(trial));
       }
@@ -412,7 +412,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
         again = true;
         continue;
       }
-      trial.probe->hold();
+      trial.probe->keep_unbroken();
       trial.loads_known = false;
       next.push_back(std::move(trial));
     }
@@ -425,7 +425,7 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
 
 void BreakStage::run(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts) {
   const auto collide = [&] {
-    const WorkSpan span(world.conservation.work, Stage::kBreak, "contacts found anew");
+    const WorkSpan span(world.log.work_counts, Stage::kBreak, "contacts found anew");
     world.physics->collide(world.clock.horizon_s());
     deferred_impacts_.invalidate_driven();
   };

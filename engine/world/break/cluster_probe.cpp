@@ -54,7 +54,7 @@ class ProbeBuilder {
     ProbeBody body;
     body.key = actor ? actor->key : kGroundKey;
     if (!actor) return body;
-    body.least_J = actor->least_of_all_J();
+    body.safe_work_J = actor->least_of_all_J();
     body.limits = actor->impact_limits();
     constexpr double kAny = std::numeric_limits<double>::max();
     body.breakable = may_break(world_, actor, kAny, kAny, kAny);

@@ -34,7 +34,7 @@ class DeferredImpacts {
   /// Returns true if no body of a cluster is in contact, direct or through others, with a moving
   /// kinematic body.
   bool may_defer(const World& world, const ImpactProbe& cluster);
-  /// Defers the bodies of a cluster, whose probe has ended by pause(), to the next step.
+  /// Defers the bodies of a cluster, whose probe has ended by end_early(), to the next step.
   void add(World& world, const ImpactProbe& cluster);
   /// Ends a step: clusters still in the queue stay deferred. Calls Physics::pause() for all bodies.
   void end_step(World& world);

@@ -306,7 +306,7 @@ Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t 
 }
 
 void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) {
-  LimitsHit& limits = world.conservation.report.limits;
+  LimitsHit& limits = world.log.report.limits;
   if (outcome == Outcome::kBodyLimit) ++limits[Limit::kBodies];
   if (outcome != Outcome::kHolds) return;
   Actor& actor = *world.actors.find(planned.impact.key);
@@ -356,8 +356,8 @@ void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   }
   const bool only_bends = planned.only_bends();
   if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
-  world.conservation.report.failed += planned.edit.loose.failed;
-  world.conservation.report.failed_m3 += planned.edit.loose.failed_m3;
+  world.log.report.failed += planned.edit.loose.failed;
+  world.log.report.failed_m3 += planned.edit.loose.failed_m3;
   breaker.on_applied(planned.edit.loose);
   if (planned.edit.changed) {
     const std::uint32_t first_key = world.actors.next_key();
@@ -366,7 +366,7 @@ void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
   } else {  // cracked, but still in one piece
     actor.structure.apply(planned.edit);
   }
-  if (!only_bends) world.conservation.breaks.push_back(std::move(event));
+  if (!only_bends) world.log.breaks.push_back(std::move(event));
 }
 
 }  // namespace sunder

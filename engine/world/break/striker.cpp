@@ -188,7 +188,7 @@ void apply_plastic_collision(World& world, const PlannedBreak& planned, std::uin
   if (!striker->is_kinematic)
     gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, middle_W);
   const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
-  EnergyFlows& energy = world.conservation.report.energy;
+  EnergyFlows& energy = world.log.report.energy;
   energy.debris += debris_J;
   energy.contacts -= gain_J + debris_J;
 }

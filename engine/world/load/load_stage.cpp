@@ -188,7 +188,7 @@ std::vector<std::uint32_t> update_loads(World& world) {
 }
 
 std::vector<std::uint32_t> find_due(World& world) {
-  WorkSpan span(world.conservation.work, Stage::kLoad, "solids due");
+  WorkSpan span(world.log.work_counts, Stage::kLoad, "solids due");
   std::vector<std::uint32_t> keys = update_loads(world);
   span.count(keys.size());
   return keys;
@@ -237,14 +237,14 @@ void apply(World& world, StressTask& task) {
   actor.stress.memory = answer.memory;
   actor.stress.settled = answer.settled;
   actor.stress.since_step = world.clock.step;
-  if (answer.gave_up) ++world.conservation.report.limits[Limit::kLoadIterations];
+  if (answer.gave_up) ++world.log.report.limits[Limit::kLoadIterations];
   BreakEdit& edit = answer.edit;
   if (!edit.changed) {
     actor.structure.apply(edit);
     return;
   }
   if (!fits_body_limit(world, edit)) {
-    ++world.conservation.report.limits[Limit::kBodies];
+    ++world.log.report.limits[Limit::kBodies];
     actor.stress.settled = true;
     return;
   }
@@ -264,7 +264,7 @@ void apply(World& world, StressTask& task) {
   const bool only_bends = !edit.hinges.empty() && edit.cut.empty();
   const bool opens_overlap = edit.loose.pieces.empty();
   event.child_keys = apply_break(world, task.key, edit);
-  if (!only_bends && !opens_overlap) world.conservation.breaks.push_back(std::move(event));
+  if (!only_bends && !opens_overlap) world.log.breaks.push_back(std::move(event));
 }
 
 }  // namespace
@@ -300,12 +300,12 @@ void LoadStage::run(World& world, const Breaker& breaker) {
       batch.push_back({keys[next], reserved, {}, 0});
       left -= reserved;
     }
-    WorkSpan span(world.conservation.work, Stage::kLoad, "solids judged");
+    WorkSpan span(world.log.work_counts, Stage::kLoad, "solids judged");
     span.count(batch.size());
     find_stresses(world, breaker, batch);
     for (StressTask& task : batch) {
       work_left_ -= static_cast<std::int64_t>(task.answer.work);
-      world.conservation.work.add({Stage::kLoad, "bonds visited", task.answer.work});
+      world.log.work_counts.add({Stage::kLoad, "bonds visited", task.answer.work});
       apply(world, task);
     }
   }

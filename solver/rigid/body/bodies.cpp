@@ -73,7 +73,7 @@ void Bodies::resize(std::uint32_t count) {
   root_B.resize(count);
   is_gyroscopic.resize(count);
   reach_m.resize(count);
-  turned_m.resize(count);
+  rotation_path_m.resize(count);
   resting_s.resize(count);
   lost_N.resize(count);
   rest_position.resize(count);
@@ -114,7 +114,7 @@ BodySlot Bodies::add(const BodyDesc& desc) {
     is_gyroscopic[body] = root.uneven;
   }
   reach_m[body] = 0;
-  turned_m[body] = 0;
+  rotation_path_m[body] = 0;
   restart_rest(body);
   rest_position[body] = position[body];
   rest_rotation[body] = rotation[body];
@@ -191,7 +191,7 @@ void Bodies::set_state(BodySlot body, const BodyState& state) {
   if (!mobile(body)) return;
   wake(body);
   const Quat turn = rotation[body].conjugate() * state.X_WB.rotation;
-  turned_m[body] += 3.2 * turn.vec().norm() * reach_m[body];  // angle <= pi * sine
+  rotation_path_m[body] += 3.2 * turn.vec().norm() * reach_m[body];  // angle <= pi * sine
   const Pose before{position[body], rotation[body]};
   place(body, state.X_WB.position, state.X_WB.rotation);
   if (motion[body] == Motion::kKinematic &&

@@ -1,5 +1,5 @@
-// Bodies and shapes: structures of arrays by slot. Slots are reused; a generation in the id tells
-// old ids from new ones.
+// Bodies (a structure of arrays) and shapes (an array of structures), both by slot. Slots are
+// reused; a generation in the id tells old ids from new ones.
 #pragma once
 
 #include <array>
@@ -18,20 +18,20 @@ namespace sunder::solver {
 /// Mode of motion of a body.
 using Motion = BodyMode;
 
-/// Sums over several bodies.
+/// Mass, momentum and kinetic energy of several bodies.
 struct Momentum {
   double mass_kg = 0;
   Vec3 momentum_Ns = Vec3::Zero();
   double kinetic_J = 0;
 };
 
-/// Arrays over body slots. Positions and velocities are double; `rotation_f` is a copy of
-/// `rotation`.
+/// Arrays over body slots. Positions and velocities are double; `rotation_f` is the matrix of
+/// `rotation`, in float.
 struct Bodies {
   ByBody<Motion> motion;
   ByBody<std::uint32_t> generation;
   ByBody<Vec3> position;  ///< Position of the centre of mass, in W.
-  ByBody<Vec3> com_R;
+  ByBody<Vec3> com_R;     ///< Centre of mass in the rest frame R, in which solids are modelled.
   ByBody<Quat> rotation;
   ByBody<Mat3f> rotation_f;
   ByBody<Vec3> velocity;
@@ -39,22 +39,23 @@ struct Bodies {
   ByBody<double> mass_kg;  ///< Mass; valid only for dynamic bodies.
   ByBody<Mat3> inertia_B;
   ByBody<float> inverse_mass;  ///< 0 unless dynamic.
-  /// G with G·Gᵀ = inverse inertia in B. Its columns map angular impulses to root space, where
-  /// every body has unit inertia. 0 unless dynamic.
+  /// G with G·Gᵀ = inverse inertia in B: Gᵀ maps an angular impulse to root space, where every body
+  /// has unit inertia, and G maps back to angular velocity. 0 unless dynamic.
   ByBody<Mat3f> root_B;
   /// 1: the principal moments differ, so free rotation has a gyroscopic term.
   ByBody<std::uint8_t> is_gyroscopic;
-  ByBody<double> reach_m;   ///< Radius of a sphere about the centre of mass that has all shapes.
-  ByBody<double> turned_m;  ///< Upper bound on the distance that rotations have moved any point.
-  ByBody<float> resting_s;  ///< Time that the body has been slow and near its rest pose.
-  ByBody<float> lost_N;     ///< Sum of the forces of contacts lost in that time.
-  ByBody<Vec3> rest_position;
+  ByBody<double> reach_m;  ///< Radius of a sphere about the centre of mass that has all shapes.
+  ByBody<double> rotation_path_m;  ///< Upper bound on the path of any point by rotation since the
+                                   ///< body was added.
+  ByBody<float> resting_s;         ///< Time that the body has been slow and near its rest pose.
+  ByBody<float> lost_N;            ///< Sum of the forces of contacts that ended in that time.
+  ByBody<Vec3> rest_position;      ///< Pose at the start of that time.
   ByBody<Quat> rest_rotation;
-  ByBody<std::uint8_t> is_new;     ///< 1: not solved yet.
-  ByBody<std::uint8_t> changed;    ///< 1: moved, pushed or new since the last collide.
-  ByBody<std::uint8_t> displaced;  ///< 1: kinematic, and its pose was set since the last step.
-  ByBody<std::uint8_t> reports_load;
-  ByBody<std::uint32_t> tag;
+  ByBody<std::uint8_t> is_new;        ///< 1: not solved yet.
+  ByBody<std::uint8_t> changed;       ///< 1: moved, pushed or new since the last collide().
+  ByBody<std::uint8_t> displaced;     ///< 1: kinematic, and its pose was set since the last step.
+  ByBody<std::uint8_t> reports_load;  ///< 1: in contact_impulses() and joint_impulses().
+  ByBody<std::uint32_t> tag;          ///< Given by the caller; not read by the solver.
   ByBody<ShapeSlot> first_shape;
   std::vector<BodySlot> free_slots;
 
@@ -130,12 +131,14 @@ struct Shape {
   float rolling = 0;
   float restitution = 0;
   float radius_m = 0;
+  /// From `center` to the nearest face, at least a fraction of the reach: the unit of tolerances.
+  /// 1e30 for half-spaces.
   float inner_radius_m = 0;
-  float reach_m = 0;  ///< Radius about the body's centre of mass.
+  float reach_m = 0;  ///< From the body's centre of mass to the farthest point.
   Vec3f center = Vec3f::Zero();
   Vec3f normal = Vec3f::UnitY();
-  bool facet = false;  ///< The hull is a facet, with these bends at its edges.
-  std::array<Eigen::Vector2f, 3> bends = {};
+  bool facet = false;  ///< The hull is a triangle of a surface that collides with its front only.
+  std::array<Eigen::Vector2f, 3> bends = {};  ///< (cos, sin) of the angle at each edge.
   Hull hull;
 };
 

@@ -71,14 +71,14 @@ void move_freely(const StepContext& step, BodySlot body, Bodies& bodies) {
     rotation = rotation_by(angle_W) * bodies.rotation[body];
   }
   bodies.place(body, bodies.position[body] + displacement, rotation);
-  bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
+  bodies.rotation_path_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
 }
 
 void move_kinematic(const StepContext& step, BodySlot body, Bodies& bodies) {
   const Vec3 angle_W = step.dt_s * bodies.angular_velocity[body];
   bodies.place(body, bodies.position[body] + step.dt_s * bodies.velocity[body],
                rotation_by(angle_W) * bodies.rotation[body]);
-  bodies.turned_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
+  bodies.rotation_path_m[body] += 1.1 * angle_W.norm() * bodies.reach_m[body];
   bodies.changed[body] = 1;
 }
 

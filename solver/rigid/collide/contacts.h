@@ -25,10 +25,10 @@ inline std::uint64_t pair_key(ShapeSlot shape_a, ShapeSlot shape_b) {
 struct Pair {
   ShapeSlot shape_a, shape_b;  ///< None: a free slot.
   BodySlot body_a, body_b;
-  ManifoldSlot manifold;   ///< None: no contact, not even a speculative one.
-  float clearance_m = -1;  ///< Lower bound on the distance at the last test.
-  float margin_m = 0;      ///< Distance within which they have a contact, plus their motion.
-  double turned_m = 0;     ///< Sum of Bodies::turned_m of both at the last test.
+  ManifoldSlot manifold;       ///< None: no contact, not even a speculative one.
+  float clearance_m = -1;      ///< Lower bound on the distance at the last test.
+  float margin_m = 0;          ///< Distance within which they have a contact, plus their motion.
+  double rotation_path_m = 0;  ///< Sum of Bodies::rotation_path_m of both at the last test.
   Vec3f offset_W = Vec3f::Zero();  ///< Centre of b minus centre of a at the last test.
   Vec3f axis_A = Vec3f::Zero();    ///< Last separating axis, in A; zero if none.
   bool needs_test = true;          ///< True until the first test, or if a test was requested.

@@ -252,8 +252,9 @@ bool same_as_before(const Bodies& bodies, SpanByBody<const StepReach> reach, con
     return false;
   const BodySlot a = pair.body_a, b = pair.body_b;
   const Vec3f offset_W = (bodies.position[b] - bodies.position[a]).cast<float>();
-  const auto turned_m = static_cast<float>(bodies.turned_m[a] + bodies.turned_m[b] - pair.turned_m);
-  const float moved_m = (offset_W - pair.offset_W).norm() + turned_m;
+  const auto rotation_path_m = static_cast<float>(bodies.rotation_path_m[a] +
+                                                  bodies.rotation_path_m[b] - pair.rotation_path_m);
+  const float moved_m = (offset_W - pair.offset_W).norm() + rotation_path_m;
   if (m) return moved_m < kStillMotion * m->size_m;
   const Vec3f displacement_W = reach[b].displacement_W - reach[a].displacement_W;
   const float closing_m =
@@ -289,7 +290,7 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
   const PairMotion motion = pair_motion(pair, bodies);
   // A facet may be a sliver, but counts as large as its surface.
   const float size_m = a.facet ? b.inner_radius_m : std::min(a.inner_radius_m, b.inner_radius_m);
-  pair.turned_m = bodies.turned_m[pair.body_a] + bodies.turned_m[pair.body_b];
+  pair.rotation_path_m = bodies.rotation_path_m[pair.body_a] + bodies.rotation_path_m[pair.body_b];
   pair.offset_W = motion.offset_W;
   if (m.count > 0 && m.reusable && barely_moved(m, bodies, motion)) {
     refresh_manifold(bodies, motion, m);

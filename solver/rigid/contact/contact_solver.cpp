@@ -322,7 +322,7 @@ void ContactSolver::Stages::finish(BodySlot body) {
   // Only the change is added, so that the doubles keep what no contact changed.
   bodies_.velocity[body] += linear(r.velocity - r.start).cast<double>();
   bodies_.angular_velocity[body] = rotation.w_W;
-  bodies_.turned_m[body] +=
+  bodies_.rotation_path_m[body] +=
       1.1 * double{(root_W * angular(r.position)).norm()} * bodies_.reach_m[body];
   bodies_.place(body, bodies_.position[body] + linear(r.position).cast<double>(), rotation.R_WB);
 }

@@ -1,5 +1,5 @@
-// Conservation: mass, energy and momentum of the run, and the counts of the current frame. Internal
-// to engine/world.
+// Record of a run: the report, breaks and counts of the current frame, and sums of mass, energy and
+// momentum. Internal to engine/world.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace sunder {
 
-struct Conservation {
+struct RunLog {
   FrameReport report;              ///< Report of the current frame.
   std::vector<BreakEvent> breaks;  ///< Breaks of the current frame.
-  WorkLog work;                    ///< Work of the current frame.
+  WorkLog work_counts;             ///< Items and times of the stages of the current frame.
   double debris_mass_kg = 0;       ///< Mass of all pieces too small for a body.
   double removed_mass_kg = 0;      ///< Mass removed by the script.
   double plastic_J = 0;            ///< Plastic work of the whole run.
