@@ -1,5 +1,5 @@
-// The solver's impact probe, which solves the contacts of a cluster event by event: the first twelve
-// events in the order in which contacts close, later ones by closing energy.
+// The solver's impact probe, which solves the contacts of a cluster event by event: the first
+// twelve events in the order in which contacts close, later ones by closing energy.
 //
 // Begin with engine/model/impact_probe.h for what a probe promises, then EventProbe.
 #pragma once
