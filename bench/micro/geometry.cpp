@@ -68,16 +68,22 @@ std::vector<Plane> random_planes(double reach) {
   return planes;
 }
 
-void clip_convex(benchmark::State& state) {
-  const ConvexPolyhedron solid = rounded_box(static_cast<int>(state.range(0)));
-  const std::vector<Plane> planes = random_planes(0.6);
-  ConvexPolyhedron result;
-  ClipScratch scratch;
+/// Times cuts of a solid by random planes within `reach` of its centre.
+template <class Solid, class Scratch>
+void time_clips(benchmark::State& state, const Solid& solid, double reach) {
+  const std::vector<Plane> planes = random_planes(reach);
+  Solid result;
+  Scratch scratch;
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(clip(solid, planes[i++ % 256], {2}, 1e-12, result, scratch));
   }
   state.counters["faces"] = static_cast<double>(solid.faces.size());
+}
+
+void clip_convex(benchmark::State& state) {
+  time_clips<ConvexPolyhedron, ClipScratch>(state, rounded_box(static_cast<int>(state.range(0))),
+                                            0.6);
 }
 BENCHMARK(clip_convex)->Name("geometry/clip_convex")->Arg(0)->Arg(10)->Arg(30)->Arg(200);
 
@@ -170,15 +176,8 @@ PolygonMesh torus(std::uint32_t around, std::uint32_t tube) {
 }
 
 void clip_torus(benchmark::State& state) {
-  const PolygonMesh mesh = torus(static_cast<std::uint32_t>(state.range(0)), 30);
-  const std::vector<Plane> planes = random_planes(0.3);
-  PolygonMesh result;
-  MeshClipScratch scratch;
-  std::size_t i = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(clip(mesh, planes[i++ % 256], {2}, 1e-12, result, scratch));
-  }
-  state.counters["faces"] = static_cast<double>(mesh.faces.size());
+  const auto around = static_cast<std::uint32_t>(state.range(0));
+  time_clips<PolygonMesh, MeshClipScratch>(state, torus(around, 30), 0.3);
 }
 BENCHMARK(clip_torus)
     ->Name("geometry/clip_torus")
