@@ -3,9 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <ctime>
 
 #include "engine/base/check.h"
 
@@ -15,6 +18,29 @@ namespace {
 volatile std::sig_atomic_t caught = 0;
 
 constexpr int kStopSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
+/// Signals within this time of the first are the same request: timeout(1), and a shell that passes
+/// on Ctrl-C, send each signal to the program and once more to its process group.
+constexpr std::int64_t kSameRequestNs = 500'000'000;
+
+std::int64_t monotonic_ns() {  // std::chrono isn't among what a signal handler may call
+  timespec now = {};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+void catch_stop_signal(int signal) {
+  static std::atomic<std::int64_t> first_ns = 0;
+  static_assert(decltype(first_ns)::is_always_lock_free);
+  const std::int64_t now_ns = monotonic_ns();
+  if (caught == 0) {
+    first_ns = now_ns;
+  } else if (now_ns - first_ns > kSameRequestNs) {
+    ::signal(signal, SIG_DFL);
+    ::raise(signal);  // delivered when this handler returns
+  }
+  caught = signal;
+}
 
 /// A source of another source's frames that ends when a stop signal is caught.
 class StoppableSource final : public FrameSource {
@@ -30,8 +56,7 @@ class StoppableSource final : public FrameSource {
 
 void catch_stop_signals() {
   struct sigaction action = {};
-  action.sa_handler = [](int signal) { caught = signal; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = catch_stop_signal;
   for (const int signal : kStopSignals) {
     struct sigaction before = {};  // keeps SIGHUP ignored, as nohup sets it
     ::sigaction(signal, nullptr, &before);

@@ -45,8 +45,8 @@ class FramesFrom final : public FrameSink {
   std::uint64_t first_;
 };
 
-/// Catches SIGINT, SIGTERM and SIGHUP from now on, for stop_signal(). A second signal of a kind
-/// ends the program at once. SIGHUP stays ignored if it is.
+/// Catches SIGINT, SIGTERM and SIGHUP from now on, for stop_signal(). Another one that comes more
+/// than half a second after the first ends the program at once. SIGHUP stays ignored if it is.
 void catch_stop_signals();
 /// Returns the last signal that was caught; 0 if none was.
 int stop_signal();

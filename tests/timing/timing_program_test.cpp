@@ -150,6 +150,22 @@ TEST_F(Bench, KeepsAndReportsFinishedRepeatsWhenStopped) {
   EXPECT_FALSE(std::filesystem::exists(file("stopped")));
 }
 
+TEST_F(Bench, TwoSignalsAtOnceStopItOnceAndALaterOneEndsIt) {
+  const auto signalled = [&](const std::string& scene, const std::string& signals) {
+    const std::string shell = "sh -c '\"$@\" & p=$!; sleep 2; " + signals + "; wait $p' sh ";
+    return sunder("bench " + scene + " --repeats 1000 --warm-up 0 --hashes " +
+                      folder_ / "hashes.txt" + " --json " + file("signalled"),
+                  shell)
+        .exit_code;
+  };
+  const std::string twice = "kill $p; kill $p";
+  EXPECT_EQ(signalled(folder_ / "fall.toml", twice), 143);
+  EXPECT_TRUE(std::filesystem::exists(file("signalled"))) << "results are kept";
+  std::filesystem::remove(file("signalled"));
+  EXPECT_EQ(signalled("tower", twice + "; sleep 1; kill $p"), 143);
+  EXPECT_FALSE(std::filesystem::exists(file("signalled"))) << "ended within its first run";
+}
+
 TEST_F(Bench, AnotherProgramSharesOneProcessorWithThisOne) {
   const std::string seen = folder_ / "seen";
   std::ofstream(folder_ / "other") << "#!/bin/sh\ngrep Cpus_allowed_list /proc/self/status >> \""
