@@ -128,7 +128,7 @@ struct BreakPlan {
   /// Volume of parts that are too small for pieces and became debris.
   double debris_volume_m3 = 0;
   std::uint32_t untouched = 0;  ///< Number of convexes that are passed on unchanged.
-  std::uint32_t welded = 0;     ///< Number of cells whose parts were welded into one convex.
+  std::uint32_t welded = 0;     ///< Number of convexes that replaced parts in a cell.
   /// Number of convexes left whole because their parts did not sum to their volume.
   std::uint32_t failed = 0;
   double failed_m3 = 0;   ///< Volume of the convexes counted in `failed`.

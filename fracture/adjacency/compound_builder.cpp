@@ -20,19 +20,19 @@ constexpr double kParallel = 1e-6;  // Length of the sum of two opposite unit no
 /// plane relative to its parent.
 class Planes {
  public:
-  explicit Planes(std::size_t faces) : parent_(faces), flipped_(faces, 0) {
+  explicit Planes(std::size_t faces) : parent_(faces), flipped_(faces, 0), is_flush_(faces, 0) {
     for (std::size_t i = 0; i < faces; ++i) parent_[i] = static_cast<std::uint32_t>(i);
   }
 
   /// Joins the planes of two faces, which are on opposite sides.
-  void join(std::uint32_t a, std::uint32_t b) {
-    const auto [root_a, side_a] = find(a);
-    const auto [root_b, side_b] = find(b);
-    if (root_a == root_b) return;
-    const std::uint32_t low = std::min(root_a, root_b), high = std::max(root_a, root_b);
-    parent_[high] = low;
-    flipped_[high] = side_a ^ side_b ^ 1;
+  void join_opposite(std::uint32_t a, std::uint32_t b) {
+    join(a, b, 1);
+    is_flush_[a] = is_flush_[b] = 1;
   }
+  /// Joins the planes of two faces, which are on the same side.
+  void join_level(std::uint32_t a, std::uint32_t b) { join(a, b, 0); }
+  /// Returns true if a face was joined with one on the opposite side.
+  bool is_flush(std::uint32_t face) const { return is_flush_[face] != 0; }
 
   std::pair<std::uint32_t, std::uint8_t> find(std::uint32_t face) const {
     std::uint8_t side = 0;
@@ -41,29 +41,40 @@ class Planes {
   }
 
  private:
+  void join(std::uint32_t a, std::uint32_t b, std::uint8_t is_opposite) {
+    const auto [root_a, side_a] = find(a);
+    const auto [root_b, side_b] = find(b);
+    if (root_a == root_b) return;
+    const std::uint32_t low = std::min(root_a, root_b), high = std::max(root_a, root_b);
+    parent_[high] = low;
+    flipped_[high] = side_a ^ side_b ^ is_opposite;
+  }
+
   std::vector<std::uint32_t> parent_;
-  std::vector<std::uint8_t> flipped_;
+  std::vector<std::uint8_t> flipped_, is_flush_;
 };
 
-/// Returns true if face `f` of `a` and face `g` of `b` lie in one plane with opposite normals.
-bool are_opposite(const ConvexPolyhedron& a, std::size_t f, const ConvexPolyhedron& b,
-                  std::size_t g, double tolerance) {
-  const Plane& plane = a.faces[f].plane;
-  if ((plane.normal + b.faces[g].plane.normal).squaredNorm() > kParallel * kParallel) return false;
+/// Returns true if face `g` of `b` lies in `plane`, with the normal of that plane.
+bool lies_in(const Plane& plane, const ConvexPolyhedron& b, std::size_t g, double tolerance) {
+  if ((plane.normal - b.faces[g].plane.normal).squaredNorm() > kParallel * kParallel) return false;
   for (const std::uint32_t corner : b.face_corners(g)) {
     if (std::abs(plane.distance(b.vertices[corner])) > tolerance) return false;
   }
   return true;
 }
 
-/// Joins the planes of faces with which two convexes may touch.
+/// Joins the planes of the faces of two convexes that lie in one plane: with opposite normals they
+/// may touch, with equal ones a convex welded of parts of both has one face there.
 void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPolyhedron& b,
                 std::uint32_t first_b, double tolerance, Planes& planes) {
   for (std::uint32_t f = 0; f < a.faces.size(); ++f) {
+    const Plane& plane = a.faces[f].plane;
     // They can touch in face f only if all of b is beyond its plane.
-    if (a.faces[f].plane.distance(b.vertices[0]) < -tolerance) continue;
+    const bool may_touch = plane.distance(b.vertices[0]) >= -tolerance;
     for (std::uint32_t g = 0; g < b.faces.size(); ++g) {
-      if (are_opposite(a, f, b, g, tolerance)) planes.join(first_a + f, first_b + g);
+      if (may_touch && lies_in(plane.flipped(), b, g, tolerance))
+        planes.join_opposite(first_a + f, first_b + g);
+      if (lies_in(plane, b, g, tolerance)) planes.join_level(first_a + f, first_b + g);
     }
   }
 }
@@ -97,8 +108,6 @@ void assign_plane_ids(std::vector<Part>& parts, const PartPairs& pairs, double t
     join_faces(parts[i].polyhedron, first_face[i], parts[j].polyhedron, first_face[j], tolerance,
                planes);
   }
-  std::vector<std::uint32_t> sharing(faces, 0);  // Number of faces in a plane, by its first face.
-  for (std::uint32_t face = 0; face < faces; ++face) ++sharing[planes.find(face).first];
   std::uint64_t spare = faces;
   std::vector<PlaneId> old_ids;
   std::vector<std::uint32_t> flush;
@@ -110,7 +119,7 @@ void assign_plane_ids(std::vector<Part>& parts, const PartPairs& pairs, double t
       old_ids.push_back(id);
       const auto [root, side] = planes.find(first_face[i] + f);
       id = {2 * (std::uint64_t{root} + 1) + side};
-      if (sharing[root] > 1) flush.push_back(f);
+      if (planes.is_flush(first_face[i] + f)) flush.push_back(f);
     }
     std::shared_ptr<const PolygonMesh>& visual = parts[i].visual;
     if (!visual) continue;

@@ -1,6 +1,7 @@
 #include "fracture/cut/fragments.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -80,34 +81,76 @@ class Welder {
     return ghost.of.back() < slot_count_ ? CellPart::kFarCell : cell(ghost.of.back() - slot_count_);
   }
 
-  /// Welds the fragments of a cell, unless that would connect several uncut convexes.
-  void weld_cell(std::span<const std::uint32_t> members) {
+  /// Welds the fragments of a cell, unless that would connect several uncut convexes: all of one
+  /// material, or else two and two. The order of convexes has no effect on the result.
+  void weld_cell(std::span<std::uint32_t> members) {
     std::uint32_t uncut_neighbour = kNone;
     for (const std::uint32_t i : members) add_neighbour(uncut_neighbour_[i], uncut_neighbour);
     if (uncut_neighbour == kSeveral) return;
-    Fragment& first = fragments_.all[members[0]];
+    std::ranges::sort(members, {}, [&](std::uint32_t i) {
+      const Convex& convex = *fragments_.all[i].convex;
+      const Vec3& at = convex.solid.centroid;
+      return std::tuple(convex.material, at.x(), at.y(), at.z(), i);
+    });
+    const auto material = [&](std::uint32_t i) { return fragments_.all[i].convex->material; };
+    for (auto i = members.begin(), end = i; i != members.end(); i = end) {
+      end = std::find_if(i, members.end(), [&](auto m) { return material(m) != material(*i); });
+      std::vector<std::uint32_t> alike(i, end);
+      if (alike.size() < 2 || weld_all(alike) || alike.size() == 2) continue;
+      for (std::size_t a = 0; a + 1 < alike.size(); ++a) {
+        for (std::size_t b = a + 1; b < alike.size();) {
+          const std::array both{alike[a], alike[b]};
+          if (!weld_all(both)) {
+            ++b;
+            continue;
+          }
+          alike[a] = std::ranges::min(both);
+          alike.erase(alike.begin() + static_cast<std::ptrdiff_t>(b));
+          b = a + 1;  // those that did not fit before may fit now
+        }
+      }
+    }
+  }
+
+  /// Returns the fragment that one was welded into, or itself.
+  std::uint32_t whole_of(std::uint32_t fragment) const {
+    while (welded_into_[fragment] != fragment) fragment = welded_into_[fragment];
+    return fragment;
+  }
+
+  /// Welds fragments of a cell into that of the lowest index; returns false if their union is not
+  /// convex.
+  bool weld_all(std::span<const std::uint32_t> members) {
+    const std::uint32_t lowest = std::ranges::min(members);
+    Fragment& first = fragments_.all[lowest];
     std::vector<ConvexPtr> parts;
     std::uint8_t anchored = 0;
     for (const std::uint32_t i : members) {
       const Fragment& fragment = fragments_.all[i];
-      if (fragment.group != first.group) return;
+      if (fragment.group != first.group) return false;
       parts.push_back(fragment.convex);
       anchored |= fragment.anchored;
     }
+    const auto is_member = [&](std::uint32_t node) {
+      return std::ranges::count(members, whole_of(node - slot_count_)) > 0;
+    };
+    std::vector<Ghost*> used;
     std::vector<Ghost> ghosts;
-    auto at = std::lower_bound(ghosts_of_cells_.begin(), ghosts_of_cells_.end(),
-                               std::pair(first.cell, 0u));
-    const auto begin = at;
-    for (; at != ghosts_of_cells_.end() && at->first == first.cell; ++at) {
-      ghosts.push_back(fragments_.ghosts[at->second]);
+    for (auto at = std::ranges::lower_bound(ghosts_of_cells_, std::pair(first.cell, 0u));
+         at != ghosts_of_cells_.end() && at->first == first.cell; ++at) {
+      Ghost& ghost = fragments_.ghosts[at->second];
+      if (!ghost.convex || !std::ranges::all_of(ghost.of, is_member)) continue;
+      used.push_back(&ghost);
+      ghosts.push_back(ghost);
     }
     const ConvexPtr whole = weld(pattern_, pattern_.cells[first.cell], parts, ghosts);
-    if (!whole) return;
-    for (auto used = begin; used != at; ++used) fragments_.ghosts[used->second].convex = nullptr;
-    for (const std::uint32_t i : members) welded_into_[i] = members[0];
+    if (!whole) return false;
+    for (Ghost* ghost : used) ghost->convex = nullptr;
+    for (const std::uint32_t i : members) welded_into_[i] = lowest;
     first.convex = whole;
     first.anchored = anchored;
     ++fragments_.welded;
+    return true;
   }
 
   /// Removes welded fragments and renumbers the others.

@@ -1,4 +1,4 @@
-// Step 3 of a fracture: the parts that fill a cell become one convex (paper 3.1).
+// Step 3 of a fracture: parts in a cell become one convex where their union is one (paper 3.1).
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace sunder::fracture {
 
-/// Returns the polyhedron of a cell as the one convex that replaces `parts`, whose overlaps are
-/// `ghosts`. Returns null unless the parts are internal convexes of one material that fill the
-/// cell, and the whole boundary of the cell was made by this pattern: a face of the old solid in it
-/// must keep its texture and plane id.
+/// Returns the one convex that replaces the parts of solids in a cell, whose overlaps are `ghosts`:
+/// the cell, or what the outer faces of the parts leave of it. Returns null unless the parts are
+/// internal convexes of one material whose union is convex, up to rounding, with flat faces: a face
+/// keeps its plane id, and its kind.
 ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
                std::span<const ConvexPtr> parts, std::span<const Ghost> ghosts);
 

@@ -3,9 +3,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "engine/geometry/clip.h"
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/adjacency/compound_builder.h"
 #include "fracture/adjacency/islands.h"
@@ -13,6 +16,7 @@
 #include "fracture/cut/intersect.h"
 #include "fracture/cut/weld.h"
 #include "fracture/fracture.h"
+#include "fracture/solids.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {
@@ -155,12 +159,97 @@ TEST(Weld, makes_exactly_the_cell_of_parts_that_fill_it) {
     EXPECT_EQ(whole->polyhedron.corners, cell.corners);
     ++welded;
     parts.pop_back();
-    EXPECT_FALSE(weld(aligned, aligned.cells[c], parts, {}));
     parts.push_back(make_convex(cell, MaterialIndex(1u)));
     // The last part has another material.
     EXPECT_FALSE(weld(aligned, aligned.cells[c], parts, {}));
   }
   EXPECT_GT(welded, 3);
+}
+
+/// Returns the parts of a compound by the cell of a pattern that they lie in.
+std::vector<std::vector<ConvexPtr>> parts_by_cell(const AlignedPattern& pattern,
+                                                  const Compound& compound) {
+  std::vector<std::vector<ConvexPtr>> parts(pattern.cells.size());
+  for (const ConvexPtr& convex : compound.convexes)
+    for (const CellPart& part : intersect(pattern, convex).parts)
+      parts[part.cell].push_back(part.convex);
+  return parts;
+}
+
+/// Returns the cell of a pattern in which a whole compound lies.
+const AlignedPattern::Cell& cell_around(const AlignedPattern& pattern, const Compound& compound) {
+  const auto parts = parts_by_cell(pattern, compound);
+  const auto all = [&](const auto& of_cell) { return of_cell.size() == compound.convexes.size(); };
+  const auto found = std::ranges::find_if(parts, all);
+  if (found == parts.end()) throw std::logic_error("no cell has all convexes");
+  return pattern.cells[static_cast<std::size_t>(found - parts.begin())];
+}
+
+TEST(Weld, keeps_the_outer_faces_of_parts_that_do_not_fill_the_cell) {
+  const Pattern pattern = voronoi_pattern(60, 1, false, 3);
+  const AlignedPattern aligned =
+      align(pattern, {4 * Mat3::Identity(), Vec3(.1, .03, .02)}, 1, kWorld);
+  // A beam of two parts, within the cells across.
+  const Compound beam =
+      make_compound({{make_box(Vec3(-3, -.2, -.3), Vec3(.2, .2, .3)), MaterialIndex(0u), 0},
+                     {make_box(Vec3(.2, -.2, -.3), Vec3(3, .2, .3)), MaterialIndex(0u), 0}});
+  int welded = 0;
+  const auto parts = parts_by_cell(aligned, beam);
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    if (parts[c].size() < 2) continue;
+    const ConvexPtr whole = weld(aligned, aligned.cells[c], parts[c], {});
+    ASSERT_TRUE(whole);
+    EXPECT_TRUE(is_closed(whole->polyhedron));
+    double volume_m3 = 0;
+    for (const ConvexPtr& part : parts[c]) volume_m3 += part->solid.volume_m3;
+    EXPECT_NEAR(whole->solid.volume_m3, volume_m3, 1e-12);
+    int outer = 0;
+    for (const auto& face : whole->polyhedron.faces) {
+      const auto in_beam = [&](const ConvexPtr& convex) {
+        return std::ranges::any_of(convex->polyhedron.faces, [&](const auto& of) {
+          return of.id == face.id && of.kind == face.kind;
+        });
+      };
+      outer += std::ranges::all_of(beam.convexes, in_beam);
+    }
+    EXPECT_GT(outer, 0) << "both halves have these faces in common, as the whole has";
+    ++welded;
+  }
+  EXPECT_GT(welded, 0);
+}
+
+TEST(Weld, keeps_apart_what_is_not_convex_together) {
+  const Pattern pattern = voronoi_pattern(1, 1, false, 3);
+  const AlignedPattern aligned = align(pattern, {20 * Mat3::Identity(), Vec3::Zero()}, 1, kWorld);
+  const Compound corner =
+      make_compound({{make_box(Vec3(-1, -1, -1), Vec3(0, 1, 1)), MaterialIndex(0u), 0},
+                     {make_box(Vec3(0, -1, -1), Vec3(1, 0, 1)), MaterialIndex(0u), 0}});
+  const AlignedPattern::Cell& cell = cell_around(aligned, corner);
+  EXPECT_FALSE(weld(aligned, cell, corner.convexes, {}));
+}
+
+TEST(Weld, keeps_the_round_shading_of_a_column_of_drums) {
+  const Compound column = make_solid("column:1,4");
+  const ConvexPolyhedron& whole = column.convexes[0]->polyhedron;
+  ConvexPolyhedron low, high;
+  ClipScratch scratch;
+  const Plane middle = Plane::through(Vec3(0, 1.5, 0), Vec3::UnitY());
+  ASSERT_EQ(clip(whole, middle, {1000}, 1e-12, low, scratch), PlaneSide::kCut);
+  ASSERT_EQ(clip(whole, middle.flipped(), {1001}, 1e-12, high, scratch), PlaneSide::kCut);
+  const Compound drums = make_compound({{low, MaterialIndex(0u), 0}, {high, MaterialIndex(0u), 0}});
+  const Pattern pattern = voronoi_pattern(1, 1, false, 3);
+  const AlignedPattern aligned = align(pattern, {20 * Mat3::Identity(), Vec3::Zero()}, 1, kWorld);
+  const ConvexPtr welded = weld(aligned, cell_around(aligned, drums), drums.convexes, {});
+  ASSERT_TRUE(welded);
+  for (const auto& face : welded->polyhedron.faces) {
+    if (std::abs(face.plane.normal.y()) > .5) continue;
+    for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
+      Vec3 radial = welded->polyhedron.vertices[welded->polyhedron.corners[c]];
+      radial.y() = 0;
+      const Vec3 normal = welded->polyhedron.corner_normals[c].cast<double>();
+      EXPECT_NEAR(normal.dot(radial.normalized()), 1, 1e-3);
+    }
+  }
 }
 
 TEST(Group, keeps_cells_of_a_colour_together_and_convexes_outside_the_sphere_with_the_rest) {
