@@ -10,6 +10,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "fracture/adjacency/compound_builder.h"
+#include "fracture/tuning.h"
 #include "fracture/vacd/nodes.h"
 #include "fracture/vacd/regions.h"
 #include "fracture/vacd/tree.h"
@@ -47,10 +48,9 @@ std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& o
 /// Returns enough nodes for pieces with few enough polygons, as placing nodes is faster than
 /// cutting pieces one by one.
 std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& options) {
-  constexpr double kUneven = 1.5;
   std::size_t polygons = 0;
   for (const PolygonMesh& shell : mesh.shells) polygons += shell.faces.size();
-  const double needed = kUneven * static_cast<double>(polygons) / options.polygons;
+  const double needed = kNodesPerFullPiece * static_cast<double>(polygons) / options.polygons;
   return std::clamp(static_cast<std::uint32_t>(std::min<double>(needed, kMostNodes)), kDefaultNodes,
                     kMostNodes);
 }
