@@ -14,12 +14,10 @@
 #include "fracture/rejoin.h"
 #include "fracture/stress/separate_islands.h"
 #include "fracture/stress/stress_breaks.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
-
-// A convex is a pane if its least width is below this share of the cube root of its volume.
-constexpr double kMaxPaneThickness = 0.3;
 
 /// Returns the rotation that takes y to `axis`, after a rotation about y.
 Quat rotation_onto(const Vec3& axis, double about_y_rad) {
@@ -73,9 +71,6 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
       return Quat::Identity();
   }
 }
-
-// A convex of which less than this share lies in a plug is not separated.
-constexpr double kMinShareInPlug = 0.05;
 
 /// Returns the share of a convex, given in the pattern's frame, that lies in the prism of a plug.
 double share_in(const Plug& plug, ConvexPolyhedron part_P) {
@@ -131,7 +126,7 @@ void add_plug(const Convex& convex, const Material& material, const StructureImp
   if (!command.plug) return;
   command.X_RP = X_RP;
   const double widest_m = std::max(command.plug->reach_m, command.plug->section_reach_m());
-  command.radius_m = 1.1 * std::hypot(widest_m, command.plug->depth_m);
+  command.radius_m = kPlugSphereScale * std::hypot(widest_m, command.plug->depth_m);
 }
 
 class PatternBreaker final : public Breaker {

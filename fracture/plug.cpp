@@ -5,30 +5,14 @@
 #include <numbers>
 #include <utility>
 
-#include "fracture/pattern/cell_limit.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
 
-constexpr double kMinThickness =
-    1 / 4.17;                         // Least thickness over width; see perforation_energy_J().
-constexpr double kCrackSpeed = 0.45;  // Speed of cracks over that of shear waves (glass: 1500 m/s).
-constexpr double kSpallRingWidth =
-    1.5;  // Outer width of the spall ring over the width of the plug.
-constexpr double kSpallEnergyRatio =
-    9;                         // Energy over that of the plug, from which the far face spalls.
-constexpr int kMostRings = 8;  // Limit of the rings of a web around the plug.
-// A striker whose plug would have more than this share of the solid's volume breaks all of it.
-constexpr double kMaxPlugShare = 0.3;
-// A crater with more than this share of the solid's cross-section breaks all of a narrow solid.
-constexpr double kMaxCraterShare = kMaxPlugShare;
-constexpr double kHoleClearance = 1.12;  // Width of the hole over that of the striker.
-// Share of the impact energy that perforation may take; the rest is distributed.
-constexpr double kMaxEnergyShare = 0.999;
-// some must be left to distribute.
-// A crater deeper than this share of its width needs a solid that goes on around it.
-constexpr double kMaxShallowDepth = 0.25;
-constexpr double kSliceThickness = 0.7;  // Thickness of a slice of the plug, over its width.
+// Minimum thickness of a plate in the range of the formula of perforation_energy_J(), as a fraction
+// of the striker's width.
+constexpr double kMinPlugThickness = 1 / 4.17;
 
 /// Returns the area (positive if counter-clockwise in x and z) and the centroid of a polygon.
 std::pair<double, Vec2> measure(const std::vector<Vec2>& polygon) {
@@ -78,8 +62,8 @@ void add_rings(const Material& material, const StructureImpact& hit, double radi
       kCrackSpeed * material.shear_wave_m_s() * (plug.depth_m + 2 * radius_m) / hit.speed_m_s;
   const double most_m = is_web ? material.impact_radius_m : kSpallRingWidth * radius_m;
   plug.reach_m = std::min({radius_m + run_m, material.impact_radius_m, most_m});
-  const int most = is_web ? kMostRings : hit.energy_J > kSpallEnergyRatio * plug.energy_J ? 1 : 0;
-  if (!(plug.reach_m > 1.1 * radius_m)) return;
+  const int most = is_web ? kMaxPlugRings : hit.energy_J > kMinSpallEnergy * plug.energy_J ? 1 : 0;
+  if (!(plug.reach_m > kMinCrackReach * radius_m)) return;
   while (plug.rings < most && crack_length_m(plug, radius_m, plug.rings + 1) < affordable_m)
     ++plug.rings;
 }
@@ -88,11 +72,11 @@ void add_rings(const Material& material, const StructureImpact& hit, double radi
 /// narrows its section to that of a round nose; updates `width_m` and `area_m2`. Returns false if
 /// the solid is too narrow there and breaks as a whole.
 bool become_crater(const StructureImpact& hit, double& width_m, double& area_m2, Plug& plug) {
-  const double share = kMaxEnergyShare * hit.energy_J / plug.energy_J;
+  const double share = kMaxPerforationShare * hit.energy_J / plug.energy_J;
   plug.energy_J *= share;
   plug.depth_m *=
       std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // The energy grows as depth^(8/3).
-  if (!hit.confined && plug.depth_m > kMaxShallowDepth * width_m) return false;
+  if (!hit.confined && plug.depth_m > kMaxShallowCraterDepth * width_m) return false;
   const double part = std::min(1.0, 2 * plug.depth_m / width_m);
   const double scale = std::sqrt(part * (2 - part));
   for (Vec2& corner : plug.section_m) corner *= scale;
@@ -105,7 +89,7 @@ bool become_crater(const StructureImpact& hit, double& width_m, double& area_m2,
 
 double perforation_energy_J(const Material& material, double width_m, double thickness_m,
                             double mass_kg) {
-  if (!(material.compressive_Pa > 0) || thickness_m < kMinThickness * width_m) return 0;
+  if (!(material.compressive_Pa > 0) || thickness_m < kMinPlugThickness * width_m) return 0;
   const double slenderness = width_m * thickness_m * thickness_m / mass_kg;
   const double squared_m2_s2 = 1.7 * (material.reinforcement_percent + 0.3) *
                                material.compressive_Pa * std::cbrt(material.density_kg_m3) *
@@ -132,7 +116,7 @@ std::optional<Plug> make_plug(const Material& material, const StructureImpact& h
   plug.solid_m = plug.depth_m;
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
   plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
-  plug.through = plug.energy_J <= kMaxEnergyShare * hit.energy_J;
+  plug.through = plug.energy_J <= kMaxPerforationShare * hit.energy_J;
   if (plug.through ? !hit.confined : !hit.held) return {};
   if (!plug.through && !become_crater(hit, width_m, area_m2, plug)) return {};
   plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
@@ -146,7 +130,7 @@ std::optional<Plug> make_plug(const Material& material, const StructureImpact& h
   }
   const auto parts = static_cast<double>(plug.section_m.size() + 1);
   plug.split = smaller_m3 > parts * material.smallest_piece_m3;
-  plug.slice_m = kSliceThickness * width_m;
+  plug.slice_m = kPlugSliceThickness * width_m;
   add_rings(material, hit, width_m / 2, plug);
   return plug;
 }

@@ -87,14 +87,12 @@ std::string impact_probe_state(const Scene& scene) {
   return on_or(may_break(scene), "no solid is breakable");
 }
 
-std::string self_weight_state(const Scene& scene) {
-  if (!may_break_by_stress(scene))
-    return "off: no breakable solid has tensile_Pa, shear_Pa or compressive_Pa above 0";
-  return on_or(
-      !scene.gravity_W.isZero(),
-      "gravity = [0, 0, 0], so self-weight is zero; contact forces and spin still break bonds");
+std::string stress_state(const Scene& scene) {
+  return on_or(may_break_by_stress(scene),
+               "no breakable solid has tensile_Pa, shear_Pa or compressive_Pa above 0");
 }
-void without_self_weight(Scene& scene) {
+/// Turns off all limits of stress: under self-weight, other loads, spin and impacts.
+void without_stress(Scene& scene) {
   for (Material& material : scene.materials) {
     material.tensile_Pa = material.shear_Pa = material.compressive_Pa = material.yield_Pa = 0;
   }
@@ -220,7 +218,7 @@ std::string third_dimension_state(const Scene& scene) {
 constexpr Feature kFeatures[] = {
     {"fracture", fracture_state, without_fracture},
     {"impact_probe", impact_probe_state, nullptr},
-    {"own_weight", self_weight_state, without_self_weight},
+    {"stress", stress_state, without_stress},
     {"yielding", yielding_state, without_yielding},
     {"debris", debris_state, without_debris},
     {"dust", dust_state, without_dust},

@@ -145,7 +145,8 @@ class ExtrudedMesh {
         if (!old_.corner_uvs.empty()) mesh_.corner_uvs.push_back(old_.corner_uvs[c]);
       }
     }
-    mesh_.faces.push_back({face.plane, face.id, first, face.contour_count, face.kind, face.mark});
+    mesh_.faces.push_back(
+        {face.plane, face.id, first, face.contour_count, face.kind, face.appearance});
   }
 
   void add_walls(const PolygonMesh::Face& cap) {

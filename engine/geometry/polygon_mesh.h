@@ -30,9 +30,9 @@ struct PolygonMesh {
     std::uint32_t first_contour = 0;
     std::uint32_t contour_count = 0;
     FaceKind kind = FaceKind::kSurface;
-    /// User number of the face, kept by all cuts; 0 means none. In a mesh from a file 1 + index of
-    /// the group (RawMesh::groups), in a scene 1 + index of the appearance (Scene::appearances).
-    std::uint32_t mark = 0;
+    /// 1 + index of the face's appearance in the list of the file or scene that the mesh belongs to
+    /// (RawMesh::groups, Scene::appearances), kept by all cuts; 0: that of the material.
+    std::uint32_t appearance = 0;
   };
 
   std::vector<Vec3> vertices;

@@ -20,9 +20,9 @@ struct RawMesh {
     std::uint32_t corner_count = 0;
     std::uint32_t group = kNoGroup;  ///< Index into `groups`.
   };
-  /// A group of polygons in a file: its names, narrowest first (group, object, material).
+  /// Polygons of a file that have their names and their appearance in common.
   struct Group {
-    std::vector<std::string> names;
+    std::vector<std::string> names;  ///< Narrowest first: group, object, material.
     std::optional<Appearance> appearance =
         std::nullopt;  ///< None if the file defines no appearance.
   };

@@ -72,7 +72,7 @@ void put(ByteWriter& out, const PolygonMesh& mesh) {
   out.put(static_cast<std::uint32_t>(mesh.faces.size()));
   for (const PolygonMesh::Face& face : mesh.faces) {
     put_plane(out, face);
-    out.put(face.contour_count, face.mark);
+    out.put(face.contour_count, face.appearance);
   }
 }
 
@@ -94,7 +94,7 @@ PolygonMesh take_mesh(ByteReader& in, const std::string& file) {
   for (PolygonMesh::Face& face : mesh.faces) {
     take_plane(in, face);
     face.first_contour = static_cast<std::uint32_t>(contours);
-    in.take_to(face.contour_count, face.mark);
+    in.take_to(face.contour_count, face.appearance);
     check(face.contour_count >= 1, file);
     contours += face.contour_count;
   }

@@ -113,17 +113,18 @@ bool is_hidden(const Convex& convex, const std::vector<std::uint8_t>& hidden, Pl
 void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, Mesh& mesh) {
   constexpr std::uint32_t kNone = 0xffffffff;
   const PolygonMesh& visual = *convex.visual;
-  const bool textured = !visual.corner_uvs.empty() &&
-                        std::any_of(visual.faces.begin(), visual.faces.end(),
-                                    [](const PolygonMesh::Face& face) { return face.mark > 0; });
+  const bool textured =
+      !visual.corner_uvs.empty() &&
+      std::any_of(visual.faces.begin(), visual.faces.end(),
+                  [](const PolygonMesh::Face& face) { return face.appearance > 0; });
   // latest drawn vertex of each visual vertex
   std::vector<std::uint32_t> latest(visual.vertices.size(), kNone);
   for (std::size_t f = 0; f < visual.faces.size(); ++f) {
     const PolygonMesh::Face& face = visual.faces[f];
     if (!face.id.none() && is_hidden(convex, hidden, face.id)) continue;
     const std::uint32_t look = face.kind == FaceKind::kInterior ? Mesh::kInterior
-                               : face.mark > 0 ? Mesh::kFirstAppearance + face.mark - 1
-                                               : Mesh::kSurface;
+                               : face.appearance > 0 ? Mesh::kFirstAppearance + face.appearance - 1
+                                                     : Mesh::kSurface;
     for (const Triangle& triangle : triangulate(visual, f)) {
       for (const std::uint32_t corner : triangle) {
         const std::uint32_t vertex = visual.corners[corner];

@@ -172,7 +172,7 @@ struct Scene {
   View view;
   std::vector<ViewKey> view_keys;  ///< Keys of the camera's path; empty: the camera is fixed.
   std::vector<Material> materials;
-  /// Appearance of faces of meshes from files, by PolygonMesh::Face::mark.
+  /// Appearances of faces of meshes from files (PolygonMesh::Face::appearance).
   std::vector<Appearance> appearances;
   std::vector<Solid> solids;
   std::vector<Ball> balls;

@@ -33,7 +33,7 @@ class CappedMesh {
 
   void add_copy(const PolygonMesh::Face& face) {
     begin(face.plane, face.id, face.kind);
-    mesh_.faces.back().mark = face.mark;
+    mesh_.faces.back().appearance = face.appearance;
     for (std::uint32_t k = face.first_contour; k < face.first_contour + face.contour_count; ++k) {
       const PolygonMesh::Contour& contour = old_.contours[k];
       for (std::uint32_t i = 0; i < contour.corner_count; ++i) add_corner(contour.first_corner + i);
@@ -47,7 +47,7 @@ class CappedMesh {
     std::map<OutlineEdge, std::uint32_t> corner_of;  // Corner at the start of an edge.
     for (const PolygonMesh::Face& face : faces) {
       if (face.kind == FaceKind::kSurface) mesh_.faces.back().kind = face.kind;
-      if (face.mark != 0) mesh_.faces.back().mark = face.mark;
+      if (face.appearance != 0) mesh_.faces.back().appearance = face.appearance;
       add_edges(face, corner_of);
     }
     while (!corner_of.empty()) {

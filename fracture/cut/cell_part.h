@@ -15,8 +15,4 @@ struct CellPart {
   ConvexPtr convex;               ///< The original object if nothing was cut off.
 };
 
-/// Least volume of a part, relative to its convex and to the cube of the pattern's unit. Smaller
-/// parts stay with a neighbour: the cut that would separate them is not made.
-inline constexpr double kMinPartVolume = 1e-6;
-
 }  // namespace sunder::fracture

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fracture/tuning.h"
+
 namespace sunder::fracture {
 namespace {
 

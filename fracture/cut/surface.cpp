@@ -10,13 +10,10 @@
 #include "engine/geometry/clip.h"
 #include "engine/geometry/mesh_islands.h"
 #include "fracture/cut/cutter.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
-
-/// Least depth of a cut for a fit, over the size of the points; thinner slices are not worth a
-/// face.
-constexpr double kMinCutDepth = 1e-3;
 
 /// Returns the internal convex for a part that lies inside the mesh: no old surface shows.
 ConvexPtr internal_convex(const Convex& part) {
@@ -184,7 +181,7 @@ ConvexPolyhedron fit_to_points(const ConvexPolyhedron& region, std::span<const V
   for (const Plane& plane : touching_planes(points, fit_directions(points, fit))) {
     double most = 0;
     for (const Vec3& vertex : kept.vertices) most = std::max(most, plane.distance(vertex));
-    if (most <= kMinCutDepth * size) continue;
+    if (most <= kMinFitCutDepth * size) continue;
     if (clip(kept, plane, {}, tolerance, next, scratch) == PlaneSide::kCut) std::swap(kept, next);
   }
   return kept;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fracture/tuning.h"
+
 namespace sunder::fracture {
 namespace {
 

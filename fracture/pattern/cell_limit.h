@@ -5,10 +5,6 @@
 
 namespace sunder::fracture {
 
-/// Share of an impact's energy that goes into cracks; the rest stays kinetic or becomes heat. A
-/// choice, not a measurement (docs/decisions/049).
-inline constexpr double kCrackShare = 0.1;
-
 /// Halves the number of cells until kCrackShare of the hit's energy pays for their cracks, or the
 /// number is the least possible. Cells of fixed size (bricks, cells from files) are not changed,
 /// nor are the patterns of materials without a limit of stress, which break by crack energy alone.

@@ -4,13 +4,10 @@
 
 #include "engine/base/random.h"
 #include "fracture/pattern/pattern.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
-
-constexpr double kCoreScale = 0.55;   // Scale of the core of a split prism.
-constexpr double kRingJitter = 0.45;  // Relative to the distance of two rings; less than 0.5.
-constexpr double kSliceJitter = 0.2;  // Relative to the distance of two slices.
 
 /// Returns the corners of all rings, from the inside out.
 std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Random& random) {
@@ -23,13 +20,13 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
       ring.push_back((scale + jitter * random.uniform(-1, 1)) * corner);
     rings.push_back(std::move(ring));
   };
-  if (plug.split) add(kCoreScale, 0);
+  if (plug.split) add(kPlugCoreScale, 0);
   add(1, 0);
   const double widest = std::max(1.0, plug.reach_m / plug.section_reach_m());
   double inner = 1;
   for (int ring = 1; ring <= plug.rings; ++ring) {
     const double outer = std::pow(widest, static_cast<double>(ring) / plug.rings);
-    add(outer, kRingJitter * (outer - inner));
+    add(outer, kPlugRingJitter * (outer - inner));
     inner = outer;
   }
   return rings;
@@ -41,7 +38,7 @@ std::vector<double> place_slices(const Plug& plug, double unit_m, Random& random
   if (!(plug.slice_m > 0)) return slices;
   const int count = static_cast<int>(std::lround(plug.depth_m / plug.slice_m));
   for (int i = 1; i < count; ++i) {
-    const double place = (i + kSliceJitter * random.uniform(-1, 1)) / count;
+    const double place = (i + kPlugSliceJitter * random.uniform(-1, 1)) / count;
     slices.push_back(place * plug.depth_m / unit_m);
   }
   return slices;

@@ -2,6 +2,7 @@
 #include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "fracture/pattern/pattern.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
@@ -18,10 +19,10 @@ void split(Pattern& pattern, std::vector<PlaneId>& sides, int count, double jitt
   }
   const Box box = bounds(region);
   const Vec3 extent = box.extent();
-  const bool across_y = extent.y() * 1.5 >= extent.z();  // Prefers slabs to rods.
+  const bool across_y = extent.y() * kSlabPreference >= extent.z();
   const Vec3 straight = across_y ? Vec3::UnitY() : Vec3::UnitZ();
-  const Vec3 tilt(0.1 * random.uniform(-1, 1), 0.5 * random.uniform(-1, 1),
-                  0.5 * random.uniform(-1, 1));
+  const Vec3 tilt(kSlabTiltAlong * random.uniform(-1, 1), kSlabTiltAcross * random.uniform(-1, 1),
+                  kSlabTiltAcross * random.uniform(-1, 1));
   const Vec3 normal = (straight + jitter * tilt).normalized();
   const int low_count = count / 2;
   const double share = static_cast<double>(low_count) / count - 0.5;

@@ -6,13 +6,10 @@
 #include "engine/base/trigonometry.h"
 #include "fracture/pattern/pattern.h"
 #include "fracture/pattern/voronoi.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
-
-constexpr int kShellSites = 32;
-constexpr double kShellRadius = 1.5;
-constexpr double kShellJitter = 0.15;
 
 // Returns u^exponent for u in [0, 1) from square roots alone, as pow() of the C library differs
 // between processors; uses 20 binary digits of the exponent's fraction.

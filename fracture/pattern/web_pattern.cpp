@@ -5,6 +5,7 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "fracture/pattern/pattern.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
@@ -17,15 +18,15 @@ std::vector<std::vector<Vec2>> place_crossings(int rings, int spokes, double jit
   std::vector<Vec2> directions;
   for (int spoke = 0; spoke < spokes; ++spoke) {
     const SinCos angle =
-        sin_cos(angle_of_spoke * (spoke + 0.6 * jitter * random.uniform(-0.5, 0.5)));
+        sin_cos(angle_of_spoke * (spoke + kWebSpokeJitter * jitter * random.uniform(-0.5, 0.5)));
     directions.emplace_back(angle.cos, angle.sin);
   }
   std::vector<std::vector<Vec2>> crossings(static_cast<std::size_t>(rings));
   for (int ring = 0; ring < rings; ++ring) {
     for (int spoke = 0; spoke < spokes; ++spoke) {
-      const double place = ring + 1 + 0.8 * jitter * random.uniform(-0.5, 0.5);
+      const double place = ring + 1 + kWebRingJitter * jitter * random.uniform(-0.5, 0.5);
       const double part = place / rings;  // Rings widen outwards as part^1.5.
-      const double radius = std::min(1.1, part * std::sqrt(part));
+      const double radius = std::min(kMaxWebRadius, part * std::sqrt(part));
       crossings[static_cast<std::size_t>(ring)].push_back(
           radius * directions[static_cast<std::size_t>(spoke)]);
     }

@@ -6,17 +6,11 @@
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "fracture/stress/spring_math.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
 
-constexpr std::size_t kGroupSize = 8;  // Nodes per group of the next coarser level.
-// Factor for coarse corrections, as rigid groups are too stiff.
-constexpr float kOvercorrection = 1.4f;
-// A level is solved directly if that costs at most this many iterations and the level has at most
-// kDirectNodes nodes, which limits the time to order them.
-constexpr std::uint64_t kDirectIterations = 50;
-constexpr std::size_t kDirectNodes = 1000;
 // Damping of block Jacobi, whose blocks bound the spectrum by 2.
 constexpr float kDamping = 2.0f / 3;
 constexpr std::size_t kChunk = 1024;
@@ -109,7 +103,7 @@ Multigrid::Multigrid(std::size_t nodes, std::vector<Spring> springs)
   to_units(springs);
   levels_.emplace_back(nodes, std::move(springs));
   while (!factorize(false)) {
-    SpringGroups groups(levels_.back(), kGroupSize);
+    SpringGroups groups(levels_.back(), kNodesPerGroup);
     SUNDER_CHECK(groups.count() < levels_.back().size());
     levels_.push_back(groups.coarsen(levels_.back()));
     groups_.push_back(std::move(groups));
@@ -143,9 +137,9 @@ bool Multigrid::factorize(bool keep_level) {
       pairs.emplace_back(spring.a, spring.b);
   });
   if (pairs.empty()) keep_level = true;  // Each node is on its own.
-  if (!keep_level && last.size() > kDirectNodes) return false;
+  if (!keep_level && last.size() > kMaxDirectNodes) return false;
   BlockCholesky matrix(last.size(), pairs);
-  if (!keep_level && matrix.products() > kDirectIterations * pairs.size()) return false;
+  if (!keep_level && matrix.products() > kMaxDirectIterations * pairs.size()) return false;
   using Row = Eigen::Matrix<double, 6, 1>;
   std::vector<Row> diagonal(last.size(), Row::Zero());
   last.for_each_spring([&](const Spring& spring) {

@@ -9,6 +9,7 @@
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/adjacency/overlap.h"
 #include "fracture/stress/strength.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 /// Minimum thickness of an overlap or part, as a fraction of the cube root of the convex's volume.
 /// Thinner ones are rounding errors.
 constexpr double kMinRelativeThickness = 1e-9;
-/// A part whose embedded surface has a vector area shorter than this fraction of its area passes
-/// through the other convex: shear bears tension, and pressure bears bending.
-constexpr double kMaxThroughRatio = 0.1;
 
 bool has_face(const Convex& convex, PlaneId id) {
   return std::ranges::any_of(convex.polyhedron.faces, [&](const auto& f) { return f.id == id; });

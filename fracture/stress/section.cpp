@@ -9,14 +9,11 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fracture/tuning.h"
+
 namespace sunder::fracture {
 namespace {
 
-constexpr std::size_t kMostCrossings = 4096;
-// Bonds are in one plane if their vector areas add up to this share of the sum of their areas.
-constexpr double kInOnePlane = 0.999;
-// A convex is a prism if the unit vectors of its side edges add up to this share of their number.
-constexpr double kPrism = 0.999;
 constexpr double kCos60 = 0.5, kCos30 = 0.866, kCosParallel = 1 - 1e-9;
 // Minimum of projected area over the sum of areas. Below it the bonds fold back on themselves and
 // form no section.
@@ -77,7 +74,7 @@ std::optional<Vec3> prism_axis(const ConvexPolyhedron& convex, std::uint32_t fac
       ++edges;
     }
   }
-  if (!(sum.norm() > kPrism * edges)) return std::nullopt;
+  if (!(sum.norm() > kMinPrismParallelism * edges)) return std::nullopt;
   return sum.normalized();
 }
 
@@ -162,7 +159,7 @@ std::vector<Crossing> Sections::find_crossings(std::uint32_t bond, const Vec3& n
   ++search_;
   add(bond);
   for (std::size_t k = 0; k < crossings.size(); ++k) {
-    if (!all_give_way || crossings.size() > kMostCrossings) return {};
+    if (!all_give_way || crossings.size() > kMaxSectionBonds) return {};
     const Bond& crossing = compound_.bonds[crossings[k].bond];
     for (const std::uint32_t convex : {crossing.a, crossing.b}) {
       add_those_of(convex);
@@ -302,7 +299,7 @@ Section Sections::at(std::uint32_t bond) {
   Section best = make_section(crossings, g.normal_R);
   if (best.crossings.empty()) return best;
   double area_m2 = 0;
-  if (vector_area(crossings, area_m2).norm() > kInOnePlane * area_m2) {
+  if (vector_area(crossings, area_m2).norm() > kMinSectionPlanarity * area_m2) {
     const Bond& own = compound_.bonds[bond];
     for (const auto& [convex, face] : {std::pair(own.a, own.face_a), {own.b, own.face_b}}) {
       const auto axis = prism_axis(compound_.convexes[convex]->polyhedron, face);

@@ -6,6 +6,7 @@
 
 #include "engine/base/parallel.h"
 #include "fracture/stress/spring_math.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
@@ -69,14 +70,13 @@ class GrowingGroups {
 
  private:
   static constexpr std::uint32_t kFree = 0xffffffff;
-  // A spring below this share of a node's strongest spring is weak.
-  static constexpr double kWeak = 0.25;
 
   void add(std::uint32_t node, std::uint32_t group) {
     group_[node] = group;
     for (std::uint32_t k = couplings_.first[node]; k < couplings_.first[node + 1]; ++k) {
       const std::uint32_t other = couplings_.other[k];
-      if (group_[other] != kFree || couplings_.strength[k] < kWeak * couplings_.strongest[other]) {
+      if (group_[other] != kFree ||
+          couplings_.strength[k] < kWeakSpring * couplings_.strongest[other]) {
         continue;
       }
       if (links_to_group_[other] == 0) boundary_.push_back(other);

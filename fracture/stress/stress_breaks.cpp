@@ -16,31 +16,10 @@
 #include "fracture/stress/strength.h"
 #include "fracture/stress/stress_memory.h"
 #include "fracture/stress/yielding.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
-
-constexpr double kTolerance = 1e-3, kImpactTolerance = 1e-2;  // Tolerances of the solve.
-// In an overloaded region the worst bond is cut, and bonds of its plane with at least this share of
-// its utilisation: many are equal by symmetry, and differences are rounding errors.
-constexpr double kSimilarStress = 0.97;
-constexpr int kRounds = 64;            // Limit of rounds of solving and cutting in one answer.
-constexpr int kMostIterations = 2000;  // A solve that needs more is abandoned and cuts nothing.
-// Least iterations of a solve, whatever the cost of making the system; otherwise a structure that
-// breaks in every frame would never be solved.
-constexpr std::uint64_t kLeastIterations = 2;
-// Overhead of an answer in iterations, for copying the compound and its state and visiting bonds
-// and islands, and in springs, for small compounds.
-constexpr std::uint64_t kOverheadIterations = 2, kOverheadSprings = 50;
-// Least utilisation by bound() for which the exact stress is computed: the stress at a bond's
-// corners exceeds that of its section by a limited factor.
-constexpr double kExactStressFrom = 0.6;
-// Estimated utilisation above which an overlap is replaced by bonds, whose stress is accurate. One
-// half, as the estimate is within a factor of two.
-constexpr double kOpeningUtilisation = 0.5;
-// A bond of less than this share of the squared width of the smaller convex bears nothing: it is
-// left by rounding of two cuts, and the stress of a part held only by it has no numerical solution.
-constexpr double kNegligibleBond = 1e-4;
 
 /// Returns stress over strength.
 double utilisation_of(const BondStress& stress, const Strength& limits) {
@@ -79,10 +58,10 @@ class StressBreaks {
     answer.work = kOverheadIterations * (compound_.bonds.size() + kOverheadSprings);
     memory_ = recall(load_.memory.get(), compound_, slots_, load_.materials, answer.work);
     most_work_ =
-        std::max(load_.most_work, answer.work + kLeastIterations * memory_->system->work());
+        std::max(load_.most_work, answer.work + kMinStressIterations * memory_->system->work());
     if (!impulses_.empty()) recall_deflection();
     bool is_known = true;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMaxStressRounds; ++round) {
       is_known = solve(answer) && add_impact(answer);
       if (!is_known) break;
       Yielding yielding = analyse(answer);
@@ -166,7 +145,7 @@ class StressBreaks {
     const std::uint64_t each = std::max<std::uint64_t>(1, memory_->system->work());
     if (answer.work >= most_work_) return false;
     const auto left = static_cast<int>(
-        std::min<std::uint64_t>(kMostIterations, 1 + (most_work_ - answer.work) / each));
+        std::min<std::uint64_t>(kMaxStressIterations, 1 + (most_work_ - answer.work) / each));
     const SolveResult result = memory_->system->solve(loads, gravity_R, tolerance, left,
                                                       displacements, spin_R, &last_direction);
     answer.work += each * static_cast<std::uint64_t>(1 + result.iterations);
@@ -177,9 +156,9 @@ class StressBreaks {
   /// Solves for the steady load; returns false if its stress is not known yet.
   bool solve(StressResult& answer) {
     const bool known =
-        improve(loads_, load_.gravity_R, load_.spin_R, kTolerance, memory_->displacements,
+        improve(loads_, load_.gravity_R, load_.spin_R, kStressTolerance, memory_->displacements,
                 memory_->last_direction, memory_->iterations, answer);
-    answer.settled = answer.gave_up = memory_->iterations >= kMostIterations;
+    answer.settled = answer.gave_up = memory_->iterations >= kMaxStressIterations;
     return known;
   }
 
@@ -197,9 +176,9 @@ class StressBreaks {
     if (impulses_.empty()) return true;
     std::vector<Displacement>& deflection = memory_->deflection.displacements;
     int iterations = 0;
-    if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kImpactTolerance, deflection,
+    if (!improve(impulses_, Vec3::Zero(), Vec3::Zero(), kImpactStressTolerance, deflection,
                  memory_->deflection.last_direction, iterations, answer)) {
-      answer.gave_up |= iterations >= kMostIterations;
+      answer.gave_up |= iterations >= kMaxStressIterations;
       return false;
     }
     const auto [work, mass] = memory_->system->response(impulses_, deflection);
@@ -367,7 +346,7 @@ class StressBreaks {
     if (const double flows_Pa = yield_Pa(a, b); flows_Pa > 0) return mises_Pa(at_most) / flows_Pa;
     const Strength limits = weaker_of(a, b);
     const double most = utilisation_of(at_most, limits);
-    if (!(most > kExactStressFrom)) return most;
+    if (!(most > kMinExactUtilisation)) return most;
     return utilisation_of(memory_->system->stress(compound_, number, displacements()), limits);
   }
 

@@ -5,12 +5,10 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
-
-// Least share of convexes that must be known for a system to be edited instead of made anew.
-constexpr double kLeastKnownShare = 0.5;
 
 auto key_of(const Bond& bond) { return std::tie(bond.a, bond.b, bond.face_a, bond.face_b); }
 
@@ -65,7 +63,7 @@ class MemoryUpdate {
   bool edit_system(const KnownStress& old) {
     const StressOrigin origin = origin_in(old, compound_, slots_);
     const auto known = std::ranges::count_if(origin.convexes, [](auto was) { return was != kNew; });
-    if (static_cast<double>(known) < kLeastKnownShare * static_cast<double>(old.slots.size()))
+    if (static_cast<double>(known) < kMinKnownShare * static_cast<double>(old.slots.size()))
       return false;
     for (std::size_t c = 0; c < origin.convexes.size(); ++c) {
       if (origin.convexes[c] != kNew) {

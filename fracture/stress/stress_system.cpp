@@ -6,15 +6,13 @@
 #include <tuple>
 #include <utility>
 
+#include "fracture/tuning.h"
+
 namespace sunder::fracture {
 namespace {
 
-// Least distance of two convexes, over the bond's width, in the stiffness of the bond.
-constexpr double kMinDistance = 0.05;
 // Rounding error of balanced forces, over the sum of all forces.
 constexpr double kForceRounding = 1e-11;
-// Bonds of one plane within this number of cells form one section.
-constexpr double kWindowCells = 2;
 
 /// Returns, per convex, the edge of the largest free cell among it and its neighbours.
 std::vector<double> cell_sizes(const Compound& compound) {
@@ -101,7 +99,7 @@ StressSystem::ElasticBond StressSystem::make_bond(const Compound& compound, std:
   for (const std::uint32_t c : {bond.a, bond.b}) {
     if (compound.anchored[c]) continue;
     const double distance_m = std::max(std::abs(g.normal_R.dot(g.centroid_R - masses_.centroid(c))),
-                                       kMinDistance * std::sqrt(g.area_m2));
+                                       kMinSpringLength * std::sqrt(g.area_m2));
     compliance_m_Pa += distance_m / materials[compound.convexes[c]->material.value].youngs_Pa;
   }
   if (compliance_m_Pa > 0) elastic.stiffness_Pa_m = 1 / compliance_m_Pa;
@@ -126,7 +124,7 @@ void StressSystem::make_bonds(const Compound& compound, std::span<const Material
     ElasticBond& elastic = bonds_.back();
     elastic.a = bond.a;
     elastic.b = bond.b;
-    elastic.window_m = kWindowCells * std::max(cell_m[bond.a], cell_m[bond.b]);
+    elastic.window_m = kSectionWindow * std::max(cell_m[bond.a], cell_m[bond.b]);
   }
   const auto by_plane = [&](std::uint32_t x, std::uint32_t y) {
     return std::tie(bonds_[x].plane, x) < std::tie(bonds_[y].plane, y);

@@ -10,20 +10,11 @@
 #include "engine/base/disjoint_sets.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/stress/bond_geometry.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
 
-// Fibre utilisation above which a section is examined: fibres yield before the section does, except
-// that a section under biaxial bending or shear bears slightly more than computed.
-constexpr double kLeastFibreUtilisation = 0.9;
-// Sections above this utilisation may have to flow with overloaded ones.
-constexpr double kLeastUtilisation = 0.5;
-// Share of the greatest utilisation above which sections are alike.
-constexpr double kSimilarUtilisation = 0.97;
-constexpr double kSameDirection = 0.99;  // Cosine of normals.
-// A bond within 60° of a section's normal needs no section of its own (cosine).
-constexpr double kCoveredBySection = 0.5;
 constexpr double kGauge = 5.65;  // Gauge length over √A, for elongation (ISO 6892-1).
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -39,7 +30,7 @@ Yielding::Yielding(const Compound& compound, const StressSystem& system,
       fibre_utilisations_(std::move(utilisations)),
       utilisations_(fibre_utilisations_),
       searched_(fibre_utilisations_.size(), 0) {
-  find_sections(kLeastFibreUtilisation);
+  find_sections(kMinFibreUtilisation);
 }
 
 /// Finds the sections of bonds whose fibre utilisation exceeds `least`, worst first; bonds in a
@@ -60,7 +51,7 @@ void Yielding::find_sections(double least) {
       if (fibre_utilisations_[crossing.bond] <= least) continue;
       double& worst = utilisations_[crossing.bond];
       worst = std::max(worst, section.utilisation);
-      if (sections_.normal_cosine(crossing.bond, section.normal_R()) > kCoveredBySection)
+      if (sections_.normal_cosine(crossing.bond, section.normal_R()) > kCoveredBondCosine)
         searched_[crossing.bond] = 1;
     }
     found_.push_back(std::move(section));
@@ -123,8 +114,8 @@ std::vector<std::uint32_t> Yielding::decisive_sections(double least) const {
     const Vec3 normal_R = deciding.normal_R();
     std::vector<std::uint32_t> alike;
     for (const std::uint32_t s : region)
-      if (found_[s].utilisation >= kSimilarUtilisation * deciding.utilisation &&
-          std::abs(found_[s].normal_R().dot(normal_R)) > kSameDirection)
+      if (found_[s].utilisation >= kSimilarSectionShare * deciding.utilisation &&
+          std::abs(found_[s].normal_R().dot(normal_R)) > kSimilarSectionCosine)
         alike.push_back(s);
     for (std::vector<std::uint32_t>& member : connected(alike)) {
       if (std::ranges::find(member, worst) == member.end()) continue;
@@ -184,10 +175,11 @@ Flow Yielding::flow(double least) {
   std::size_t few = chosen_.size();
   if (few == 0) return {};
   if (separates_a_part(few)) return make_flow(few);
-  find_sections(kLeastUtilisation * kLeastFibreUtilisation);
+  find_sections(kMinSectionUtilisation * kMinFibreUtilisation);
   std::vector<std::uint32_t> rank(found_.size());
   std::iota(rank.begin(), rank.end(), 0u);
-  std::erase_if(rank, [&](std::uint32_t s) { return found_[s].utilisation < kLeastUtilisation; });
+  std::erase_if(rank,
+                [&](std::uint32_t s) { return found_[s].utilisation < kMinSectionUtilisation; });
   std::ranges::stable_sort(rank, std::ranges::greater{},
                            [&](std::uint32_t s) { return found_[s].utilisation; });
   for (const std::uint32_t section : rank) choose(section);

@@ -10,26 +10,13 @@
 #include "engine/base/parallel.h"
 #include "engine/geometry/approximate_hull.h"
 #include "engine/geometry/convex_polyhedron.h"
+#include "fracture/tuning.h"
 #include "fracture/vacd/sweep_hull.h"
 
 namespace sunder::fracture {
 namespace {
 
 constexpr std::size_t kOutlinePoints = 16;  // Points of a slice's outline.
-constexpr std::size_t kSlices = 9;          // Per direction in the first search.
-constexpr std::size_t kNearSlices = 8;
-constexpr int kTilts = 3;
-constexpr double kFirstTilt = 0.25;
-/// Weight of the larger hull in the cost of a cut, which selects the more even of two tight
-/// cuts.
-constexpr double kEvenness = 2e-3;
-constexpr double kMiddleEvenness = 0.2;  // Weight for cuts with sides of about equal size.
-/// Meshes with at least twice as many contours are sliced by every second contour, every third, and
-/// so on: the outlines hardly change.
-constexpr std::size_t kContours = 4096;
-
-/// Least volume that a vertex must add to a hull, over the hull's volume.
-constexpr double kLeastGain = 3e-4;
 
 /// Unit vectors every 22.5 degrees.
 constexpr double kCos = 0.92387953251128674, kSin = 0.38268343236508977,
@@ -86,7 +73,7 @@ struct SliceEdges {
 };
 
 SliceEdges::SliceEdges(const PolygonMesh& mesh) {
-  const std::size_t step = std::max<std::size_t>(1, mesh.contours.size() / kContours);
+  const std::size_t step = std::max<std::size_t>(1, mesh.contours.size() / kSlicedContours);
   constexpr std::uint32_t kUnused = ~std::uint32_t{0};
   std::vector<std::uint32_t> new_of_old(mesh.vertices.size(), kUnused);
   for (std::size_t c = 0; c < mesh.contours.size(); c += step) {
@@ -108,12 +95,12 @@ class Sweeper {
           double evenness)
       : edges_(edges), outermost_(outermost), box_(box), evenness_(evenness) {}
 
-  /// Returns the best of kSlices evenly spaced planes.
+  /// Returns the best of kCutSlices evenly spaced planes.
   Candidate search_evenly(const Vec3& direction) {
     project_vertices(direction);
     const auto [low, high] = std::minmax_element(places_.begin(), places_.end());
-    const double step = (*high - *low) / (kSlices + 1);
-    for (std::size_t k = 1; k <= kSlices; ++k) {
+    const double step = (*high - *low) / (kCutSlices + 1);
+    for (std::size_t k = 1; k <= kCutSlices; ++k) {
       slices_.emplace_back(*low + static_cast<double>(k) * step);
     }
     return cost(direction);
@@ -123,12 +110,12 @@ class Sweeper {
   Candidate search_near(const Vec3& direction, const Vec3& point, double reach_m) {
     project_vertices(direction);
     const auto [low, high] = std::minmax_element(places_.begin(), places_.end());
-    const double at = direction.dot(point), step = (*high - *low) / (kSlices + 1);
+    const double at = direction.dot(point), step = (*high - *low) / (kCutSlices + 1);
     for (double place = *low + step; place < at - reach_m; place += step) {
       slices_.emplace_back(place);
     }
-    for (std::size_t k = 0; k < kNearSlices; ++k) {
-      const double along = (static_cast<double>(k) + 0.5) / kNearSlices * 2 - 1;
+    for (std::size_t k = 0; k < kRefiningSlices; ++k) {
+      const double along = (static_cast<double>(k) + 0.5) / kRefiningSlices * 2 - 1;
       const double place = at + along * reach_m;
       if (place > *low && place < *high) slices_.emplace_back(place);
     }
@@ -302,8 +289,8 @@ std::vector<Candidate> find_cuts(const PolygonMesh& mesh, const SliceEdges& edge
 /// Refines a cut by ever smaller tilts and shifts.
 Candidate refine_cut(const Box& box, const SliceEdges& edges, const Outline& outline,
                      Candidate best) {
-  double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kSlices;
-  for (int round = 0; round < kTilts; ++round, tilt *= 0.5, reach_m *= 0.5) {
+  double tilt = kFirstTilt, reach_m = box.extent().maxCoeff() / kCutSlices;
+  for (int round = 0; round < kTiltRounds; ++round, tilt *= 0.5, reach_m *= 0.5) {
     const Frame frame(best.direction);
     std::vector<Vec3> directions = {best.direction};
     for (const Vec3& aside : {frame.right, frame.front}) {
@@ -312,7 +299,7 @@ Candidate refine_cut(const Box& box, const SliceEdges& edges, const Outline& out
     }
     std::vector<Candidate> found(directions.size());
     for_chunks(directions.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
-      Sweeper sweeper(edges, outline.points, box, kEvenness);
+      Sweeper sweeper(edges, outline.points, box, kCutEvenness);
       found[i] = sweeper.search_near(directions[i], best.middle, reach_m);
     });
     const Candidate& next = *std::min_element(found.begin(), found.end(), better);
@@ -337,7 +324,7 @@ Outline outline_of(const PolygonMesh& mesh) {
     outline.points.push_back(mesh.vertices[v]);
   }
   for (const Vec3& v : mesh.vertices) {
-    if (hull.add(v, kLeastGain * hull.volume_m3())) outline.points.push_back(v);
+    if (hull.add(v, kMinOutlineGain * hull.volume_m3())) outline.points.push_back(v);
   }
   outline.hull_m3 = hull.volume_m3();
   return outline;
@@ -345,7 +332,7 @@ Outline outline_of(const PolygonMesh& mesh) {
 
 std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Effort effort) {
   const SliceEdges edges(mesh);
-  Candidate best = find_cuts(mesh, edges, outline, kEvenness)[0];
+  Candidate best = find_cuts(mesh, edges, outline, kCutEvenness)[0];
   if (!(best.cost < std::numeric_limits<double>::infinity())) return std::nullopt;
   if (effort == Effort::kFull) best = refine_cut(bounds(mesh), edges, outline, best);
   return best.cut();
@@ -353,7 +340,8 @@ std::optional<Cut> best_cut(const PolygonMesh& mesh, const Outline& outline, Eff
 
 std::vector<Cut> middle_cuts(const PolygonMesh& mesh, const Outline& outline) {
   std::vector<Cut> cuts;
-  for (const Candidate& candidate : find_cuts(mesh, SliceEdges(mesh), outline, kMiddleEvenness)) {
+  for (const Candidate& candidate :
+       find_cuts(mesh, SliceEdges(mesh), outline, kMiddleCutEvenness)) {
     if (candidate.cost < std::numeric_limits<double>::infinity()) cuts.push_back(candidate.cut());
   }
   return cuts;

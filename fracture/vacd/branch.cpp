@@ -9,16 +9,10 @@
 #include "engine/geometry/clip.h"
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/mesh_islands.h"
+#include "fracture/tuning.h"
 
 namespace sunder::fracture {
 namespace {
-
-// Least volume of an island that is cut off, over that of the piece.
-constexpr double kLeastShare = 1e-6;
-/// If a cut removes less than kLittleGain of the slack, and the slack exceeds kLoose of the solid,
-/// the search looks one cut further.
-constexpr double kLittleGain = 0.25, kLoose = 0.1;
-constexpr std::size_t kFurtherCuts = 6;  // Number of cuts compared in that search.
 
 /// Appends the islands on the inner side of a plane; returns false if there is none, or a sliver.
 bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double least_m3,
@@ -41,9 +35,9 @@ bool add_side(const VacdPiece& piece, const Plane& plane, PlaneId id, double lea
 /// Returns the parts by a plane, slightly shifted if that avoids slivers; none if all shifts fail.
 std::vector<Branch> parts_by(const Branch& branch, const Plane& plane, PlaneId id) {
   const double size = bounds(branch.piece.mesh).extent().maxCoeff();
-  const double least_m3 = kLeastShare * branch.solid_m3;
+  const double least_m3 = kMinIslandVolume * branch.solid_m3;
   std::vector<Branch> parts;
-  for (const double shift : {0.0, 1e-3, -1e-3, 5e-3, -5e-3}) {
+  for (const double shift : kCutShifts) {
     const Plane moved{plane.normal, plane.d + shift * size};
     std::vector<VacdPiece> sides;
     if (!add_side(branch.piece, moved, id, least_m3, sides) ||
@@ -97,8 +91,8 @@ Branch make_branch(VacdPiece piece) {
 std::vector<Branch> cut_branch(const Branch& branch, PlaneId id) {
   const std::optional<Cut> cut = best_cut(branch.piece.mesh, branch.outline, Effort::kFull);
   if (!cut) return {};
-  const bool stuck = branch.hull_m3 - cut->hull_volume_m3 < kLittleGain * branch.slack();
-  if (stuck && branch.slack() > kLoose * branch.solid_m3) {
+  const bool stuck = branch.hull_m3 - cut->hull_volume_m3 < kLittleCutGain * branch.slack();
+  if (stuck && branch.slack() > kLooseSlack * branch.solid_m3) {
     return search_one_cut_further(branch, cut->plane, id);
   }
   return parts_by(branch, cut->plane, id);

@@ -11,13 +11,11 @@
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "engine/geometry/approximate_hull.h"
+#include "fracture/tuning.h"
 #include "fracture/vacd/vacd.h"
 
 namespace sunder::fracture {
 namespace {
-
-constexpr std::size_t kSamplesPerNode = 96, kFewestSamples = 1024, kMostSamples = 16384;
-constexpr int kLloydRounds = 12;
 
 /// Calls `use(a, b, c, area)` for the triangles of a mesh, as fans of its contours.
 template <class Use>
@@ -87,11 +85,9 @@ void move_to_means(std::span<const Vec3> samples, std::vector<Vec3>& nodes) {
 
 /// Returns the approximate volume of a shell's hull less that of the shell, which is `volume`.
 double concavity(const PolygonMesh& shell, double& volume) {
-  constexpr std::size_t kHullVertices = 32;
-  constexpr double kRounding = 1e-3;
   volume = std::max(0.0, mass_properties(shell).volume_m3);
-  const double more = approximate_hull(shell.vertices, kHullVertices).volume_m3 - volume;
-  return more > kRounding * volume ? more : 0;
+  const double more = approximate_hull(shell.vertices, kConcavityVertices).volume_m3 - volume;
+  return more > kMinConcavity * volume ? more : 0;
 }
 
 }  // namespace
@@ -116,7 +112,7 @@ std::vector<Vec3> surface_samples(const PolygonMesh& mesh, std::size_t count) {
 
 std::vector<Vec3> automatic_nodes(const PolygonMesh& mesh, std::uint32_t count) {
   const std::vector<Vec3> samples =
-      surface_samples(mesh, std::clamp(kSamplesPerNode * count, kFewestSamples, kMostSamples));
+      surface_samples(mesh, std::clamp(kSamplesPerNode * count, kMinNodeSamples, kMaxNodeSamples));
   std::vector<Vec3> nodes = distant_samples(samples, count);
   for (int round = 0; round < kLloydRounds; ++round) move_to_means(samples, nodes);
   return nodes;

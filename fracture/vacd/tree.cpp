@@ -10,14 +10,12 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "fracture/tuning.h"
 #include "fracture/vacd/branch.h"
 
 namespace sunder::fracture {
 namespace {
 
-constexpr double kOvergrowth = 1.5;    // Leaves grown per leaf allowed.
-constexpr std::size_t kAtOnce = 8;     // Pieces cut before the loosest are selected again.
-constexpr double kTightEnough = 1e-4;  // Slack over the mean hull volume; looser pieces are cut.
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns the least total hull volume of two trees that share n + 1 leaves, by n.
@@ -78,7 +76,7 @@ std::vector<std::uint32_t> Tree::loosest() const {
     const Branch& branch = branches_[n];
     if (branch.tried || !branch.children.empty() || branch.piece.is_inside_mesh()) continue;
     const bool loose =
-        limits_.convexes > 0 && branch.slack() > kTightEnough * hull_m3_ / limits_.convexes;
+        limits_.convexes > 0 && branch.slack() > kTightSlack * hull_m3_ / limits_.convexes;
     if (loose || too_many_polygons(branch)) order.push_back(n);
   }
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -88,12 +86,12 @@ std::vector<std::uint32_t> Tree::loosest() const {
                ? branches_[a].slack() > branches_[b].slack()
                : a < b;
   });
-  order.resize(std::min(order.size(), kAtOnce));
+  order.resize(std::min(order.size(), kPiecesCutAtOnce));
   return order;
 }
 
 void Tree::grow() {
-  const double wanted = limits_.convexes > 0 ? kOvergrowth * limits_.convexes : kInfinity;
+  const double wanted = limits_.convexes > 0 ? kTreeOvergrowth * limits_.convexes : kInfinity;
   while (static_cast<double>(leaves_) < wanted) {
     const std::vector<std::uint32_t> next = loosest();
     if (next.empty()) return;

@@ -10,6 +10,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "fracture/adjacency/compound_builder.h"
+#include "fracture/tuning.h"
 #include "fracture/vacd/nodes.h"
 #include "fracture/vacd/regions.h"
 #include "fracture/vacd/tree.h"
@@ -47,10 +48,9 @@ std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& o
 /// Returns enough nodes for pieces with few enough polygons, as placing nodes is faster than
 /// cutting pieces one by one.
 std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& options) {
-  constexpr double kUneven = 1.5;
   std::size_t polygons = 0;
   for (const PolygonMesh& shell : mesh.shells) polygons += shell.faces.size();
-  const double needed = kUneven * static_cast<double>(polygons) / options.polygons;
+  const double needed = kNodesPerFullPiece * static_cast<double>(polygons) / options.polygons;
   return std::clamp(static_cast<std::uint32_t>(std::min<double>(needed, kMostNodes)), kDefaultNodes,
                     kMostNodes);
 }
@@ -103,24 +103,27 @@ double drop_inside_out(const RepairedMesh& mesh, std::vector<VacdPiece>& pieces)
   return dropped;
 }
 
-/// Returns the material marked on most of a mesh's original surface; `otherwise` if it has none.
+/// Returns the material of most of a mesh's original surface; `otherwise` if it has none.
 MaterialIndex material_of(const PolygonMesh& mesh, const VacdOptions& options,
                           MaterialIndex otherwise) {
   std::map<MaterialIndex, double> area_m2;
-  const std::size_t caps = options.marked.empty() ? 0 : first_cap(mesh);
+  const std::vector<MaterialIndex>& materials = options.materials_by_appearance;
+  const std::size_t caps = materials.empty() ? 0 : first_cap(mesh);
   for (std::size_t f = 0; f < caps; ++f) {
-    const std::size_t mark = mesh.faces[f].mark;
-    const bool marked = mark > 0 && mark <= options.marked.size();
-    area_m2[marked ? options.marked[mark - 1] : options.material] += face_area(mesh, f);
+    const std::size_t appearance = mesh.faces[f].appearance;
+    const bool has_material = appearance > 0 && appearance <= materials.size();
+    area_m2[has_material ? materials[appearance - 1] : options.material] += face_area(mesh, f);
   }
   const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
   const auto most = std::max_element(area_m2.begin(), area_m2.end(), less);
   return most == area_m2.end() ? otherwise : most->first;
 }
 
-bool is_painted(const PolygonMesh& mesh, const VacdOptions& options) {
+bool is_textured(const PolygonMesh& mesh, const VacdOptions& options) {
+  const std::vector<std::uint8_t>& textured = options.textured_by_appearance;
   return std::ranges::any_of(mesh.faces, [&](const PolygonMesh::Face& face) {
-    return face.mark > 0 && face.mark <= options.textured.size() && options.textured[face.mark - 1];
+    return face.appearance > 0 && face.appearance <= textured.size() &&
+           textured[face.appearance - 1];
   });
 }
 
@@ -137,7 +140,7 @@ std::vector<Part> fitted_parts(const RepairedMesh& mesh, std::vector<VacdPiece> 
     parts[p].polyhedron = fitted_region(piece, options.fit);
     parts[p].material = material_of(piece.mesh, options, of_shells[piece.shell]);
     if (piece.is_inside_mesh()) return;
-    if (is_painted(piece.mesh, options) || !renders_like(parts[p].polyhedron, piece.mesh)) {
+    if (is_textured(piece.mesh, options) || !renders_like(parts[p].polyhedron, piece.mesh)) {
       parts[p].visual = std::make_shared<PolygonMesh>(std::move(piece.mesh));
     }
   });

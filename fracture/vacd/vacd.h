@@ -38,13 +38,13 @@ struct VacdOptions {
   std::uint32_t polygons = kDefaultPolygons;
   Fit fit{Fit::Kind::kHull, 24};
   MaterialIndex material;
-  /// Materials by the marks of faces (PolygonMesh::Face), from 1 on. A convex has the material of
-  /// the mark with most area on its surface, or on its shell's surface if it has none itself. Other
-  /// marks stand for `material`.
-  std::vector<MaterialIndex> marked{};
-  /// By marks, from 1 on: true if faces with the mark have their own texture, so that the visual
-  /// mesh must be kept.
-  std::vector<std::uint8_t> textured{};
+  /// Materials by the appearances of faces (PolygonMesh::Face::appearance), from 1 on; `material`
+  /// stands for all others. A convex has the material with most area on its surface, or on its
+  /// shell's surface if it has none itself.
+  std::vector<MaterialIndex> materials_by_appearance{};
+  /// By the appearances of faces, from 1 on: true if the file defines the appearance, so that the
+  /// visual mesh must be kept.
+  std::vector<std::uint8_t> textured_by_appearance{};
   /// Called with the fraction of the work done; may be empty.
   std::function<void(double)> progress{};
 };

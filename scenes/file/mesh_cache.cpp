@@ -60,8 +60,8 @@ std::uint64_t cache_key(const RawMesh& mesh, const fracture::VacdOptions& vacd,
   for (const RawMesh::Polygon& polygon : mesh.polygons)
     all.put(polygon.corner_count, polygon.group);
   put_all(all, vacd.nodes);
-  put_all(all, vacd.marked);
-  put_all(all, vacd.textured);
+  put_all(all, vacd.materials_by_appearance);
+  put_all(all, vacd.textured_by_appearance);
   all.put(vacd.node_count.value_or(0), vacd.convexes, vacd.fit.kind, vacd.fit.vertex_count, repair);
   return hash_bytes(all.bytes);
 }

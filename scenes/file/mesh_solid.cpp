@@ -65,7 +65,7 @@ void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions
 /// does not have.
 std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& file,
                                         const MeshOptions& options) {
-  std::vector<MaterialIndex> marked(mesh.groups.size(), MaterialIndex(0u));
+  std::vector<MaterialIndex> of_groups(mesh.groups.size(), MaterialIndex(0u));
   std::set<std::string_view> all;
   for (const RawMesh::Group& group : mesh.groups) {
     for (const std::string& name : group.names) all.insert(name);
@@ -81,16 +81,16 @@ std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& 
         (names.empty() ? "; only OBJ and glTF files have such names" : "; names: " + join(names)) +
         (more > 0 ? " and " + std::to_string(more) + " more" : ""));
   }
-  for (std::size_t g = 0; g < marked.size(); ++g) {
+  for (std::size_t g = 0; g < of_groups.size(); ++g) {
     for (const std::string& name : mesh.groups[g].names) {
       const auto found = std::ranges::find(
           options.materials, name, [](auto& one) -> const auto& { return one.first; });
       if (found == options.materials.end()) continue;
-      marked[g] = MaterialIndex(1 + static_cast<std::size_t>(found - options.materials.begin()));
+      of_groups[g] = MaterialIndex(1 + static_cast<std::size_t>(found - options.materials.begin()));
       break;
     }
   }
-  return marked;
+  return of_groups;
 }
 
 /// A mesh of which more than this fraction of the volume is inside out after decomposition passes
@@ -149,14 +149,15 @@ std::vector<std::uint32_t> add_appearances(const std::vector<std::optional<Appea
   return numbers;
 }
 
-/// Replaces the marks of all faces, which are indices of groups plus one, by the entries of
-/// `appearances` for these groups.
-void set_appearances(Compound& compound, const std::vector<std::uint32_t>& appearances) {
+/// Changes the appearances of all faces from those of the file to those of the scene: i + 1 to
+/// of_groups[i], and to 0 if that does not exist.
+void set_appearances(Compound& compound, const std::vector<std::uint32_t>& of_groups) {
   for (ConvexPtr& convex : compound.convexes) {
     if (!convex->visual) continue;
     auto mesh = std::make_shared<PolygonMesh>(*convex->visual);
     for (PolygonMesh::Face& face : mesh->faces) {
-      face.mark = face.mark > 0 && face.mark <= appearances.size() ? appearances[face.mark - 1] : 0;
+      const std::uint32_t in_file = face.appearance;
+      face.appearance = in_file > 0 && in_file <= of_groups.size() ? of_groups[in_file - 1] : 0;
     }
     const auto changed = std::make_shared<Convex>(*convex);
     changed->visual = std::move(mesh);
@@ -188,11 +189,12 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   RawMesh raw = make_raw_mesh(file);
   const std::string warning = missing_warning(file, raw.missing_files);
   scale_mesh(raw, options, vacd_of);
-  if (!options.materials.empty()) vacd_of.marked = materials_of(raw, file, options);
+  if (!options.materials.empty())
+    vacd_of.materials_by_appearance = materials_of(raw, file, options);
   std::vector<std::optional<Appearance>> appearances;
   for (const RawMesh::Group& group : raw.groups) {
     appearances.push_back(group.appearance);
-    if (options.appearances) vacd_of.textured.push_back(group.appearance ? 1 : 0);
+    if (options.appearances) vacd_of.textured_by_appearance.push_back(group.appearance ? 1 : 0);
   }
   const std::uint64_t key = options.cached ? cache_key(raw, vacd_of, options.repair) : 0;
   std::optional<MeshSolid> known = options.cached ? load_cached(key) : std::nullopt;

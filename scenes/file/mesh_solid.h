@@ -17,8 +17,8 @@
 namespace sunder::scenes {
 
 /// A compound, and figures of the mesh that it was made from. The materials are indices: 0 is the
-/// default one, i + 1 is that of MeshOptions::materials[i]. A face's mark is an index into
-/// MeshOptions::appearances plus one, or 0.
+/// default one, i + 1 is that of MeshOptions::materials[i]. Appearances of faces are those of the
+/// list MeshOptions::appearances.
 struct MeshSolid {
   Compound compound;
   std::string name;

@@ -6,13 +6,10 @@
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/nncg.h"
 #include "solver/impact/complementarity.h"
+#include "solver/impact/tuning.h"
 
 namespace sunder::solver {
 namespace {
-
-constexpr std::size_t kMostExact = 48;  // contacts of a group that is solved exactly
-constexpr int kMostRounds = 20;
-constexpr double kConverged = 1e-2;  // closing speed at rest, as a share of the highest one
 
 /// Contacts connected through moving bodies.
 class Group {
@@ -24,11 +21,11 @@ class Group {
   std::vector<double> solve(double fastest_m_s, std::vector<BodyVelocity>& v,
                             std::uint64_t& work) const {
     const auto closes = [&](const ContactRow* row) {
-      return row->speed(v) > kConverged * fastest_m_s;
+      return row->speed(v) > kProbeConvergence * fastest_m_s;
     };
     work += rows_.size();
     if (std::ranges::none_of(rows_, closes)) return std::vector<double>(rows_.size(), 0);
-    if (rows_.size() > kMostExact) return solve_by_sweeps(fastest_m_s, v, work);
+    if (rows_.size() > kMaxExactContacts) return solve_by_sweeps(fastest_m_s, v, work);
     work += rows_.size() * rows_.size();
     return solve_exactly(v);
   }
@@ -85,7 +82,7 @@ std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyV
   const std::size_t n = rows_.size();
   std::vector<double> impulses_Ns(n, 0), change(n, 0), direction(n, 0);
   Nncg nncg;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxProbeSweeps; ++round) {
     work += 3 * n;
     sweep(v, impulses_Ns, change);
     double square = 0, worst = 0;
@@ -94,7 +91,8 @@ std::vector<double> Group::solve_by_sweeps(double fastest_m_s, std::vector<BodyV
       square += scaled;
       worst = std::max(worst, scaled * rows_[i]->inverse_mass);
     }
-    if (worst <= kConverged * kConverged * fastest_m_s * fastest_m_s) return impulses_Ns;
+    if (worst <= kProbeConvergence * kProbeConvergence * fastest_m_s * fastest_m_s)
+      return impulses_Ns;
     const double beta = nncg.beta(square);
     for (std::size_t i = 0; i < n; ++i) {
       direction[i] *= beta;

@@ -7,13 +7,13 @@
 
 #include <Eigen/Cholesky>
 
+#include "solver/impact/tuning.h"
+
 namespace sunder::solver {
 namespace {
 
-constexpr double kTolerance = 1e-9;
-constexpr int kMostPivots = 200;
-constexpr int kPatience = 3;      // block exchanges without progress before single ones
-constexpr int kMostSweeps = 200;  // if pivoting does not end
+// Rounding error of the solution, as a fraction of the largest entry of b.
+constexpr double kPivotTolerance = 1e-9;
 
 /// Returns x with A·x = b in the rows that are `free`, and x = 0 in the others.
 Eigen::VectorXd solve_free(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
@@ -36,12 +36,12 @@ double energy(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::V
 /// iterate of least energy.
 Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& solved) {
   const auto n = static_cast<std::size_t>(b.size());
-  const double enough = kTolerance * b.maxCoeff();
+  const double enough = kPivotTolerance * b.maxCoeff();
   std::vector<Eigen::VectorXd> tried{Eigen::VectorXd::Zero(b.size())};
   std::vector<std::uint8_t> free(n, 0);
   std::size_t fewest = n + 1;
-  int patience = kPatience;
-  for (int pivots = 0; pivots < kMostPivots; ++pivots) {
+  int patience = kPivotPatience;
+  for (int pivots = 0; pivots < kMaxPivots; ++pivots) {
     const Eigen::VectorXd& x = tried.back();
     const Eigen::VectorXd missing = b - A * x;
     std::vector<std::size_t> wrong;
@@ -53,7 +53,7 @@ Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& 
     if (solved) break;
     if (wrong.size() < fewest) {
       fewest = wrong.size();
-      patience = kPatience;
+      patience = kPivotPatience;
     } else if (patience > 0) {
       --patience;
     } else {
@@ -71,8 +71,8 @@ Eigen::VectorXd pivot(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool& 
 
 /// Improves x by projected Gauss-Seidel, in which every change of x reduces the energy.
 void sweep(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  const double enough = kTolerance * b.maxCoeff();
-  for (int i = 0; i < kMostSweeps; ++i) {
+  const double enough = kPivotTolerance * b.maxCoeff();
+  for (int i = 0; i < kMaxFallbackSweeps; ++i) {
     double most = 0;
     for (Eigen::Index row = 0; row < b.size(); ++row) {
       const double was = x[row];

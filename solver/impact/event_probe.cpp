@@ -9,24 +9,9 @@
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/rotation.h"
 #include "solver/impact/impulse_distribution.h"
+#include "solver/impact/tuning.h"
 
 namespace sunder::solver {
-namespace {
-
-// Events that are taken in order of time. Each later one is the contact with the most closing
-// energy in the rest of the step, with all that close before it: a ball behind debris is still
-// found.
-constexpr std::uint32_t kSingleEvents = 12;
-// Bound on closing speeds after other contacts were solved, relative to the event's highest.
-constexpr double kMaxSpeedUp = 2;
-// A contact with less than this share of min_safe_work_J_ as closing energy starts no event.
-constexpr double kMinEventShare = 0.1;
-// Contact softness relative to the inverse mass of the heaviest body, so that supports share loads.
-constexpr double kSoftness = 1e-5;
-// A body that joints leave less than this share of the acceleration by gravity hangs at rest.
-constexpr double kHangingShare = 1e-4;
-
-}  // namespace
 
 EventProbe::EventProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> contacts,
                        double dt_s, double rest_speed_m_s, const Vec3& gravity_W,
@@ -64,7 +49,7 @@ EventProbe::EventProbe(std::vector<ProbeBody> bodies, std::vector<ProbeContact> 
   for (const ProbeBody& body : bodies_) {
     if (body.inverse_mass > 0) least = std::min(least, body.inverse_mass);
   }
-  softness_ = kSoftness * least;
+  softness_ = kProbeSoftness * least;
   find_gravity(linkage, gravity_W);
 }
 
@@ -83,7 +68,7 @@ void EventProbe::find_gravity(const Linkage& linkage, const Vec3& gravity_W) {
   }
   gravity_ = solve_cluster(rows_, taut, all, softness_, gravity_W.norm(), gravity_).velocities;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_[b].is_supported |= gravity_[b].linear.norm() < kHangingShare * gravity_W.norm();
+    bodies_[b].is_supported |= gravity_[b].linear.norm() < kHangingAcceleration * gravity_W.norm();
   }
 }
 
@@ -128,13 +113,13 @@ double EventProbe::time_to_next_event_s() const {
     double square = speed * speed;  // of the closing speed at the time of closing
     if (falls_[row.a] || falls_[row.b]) square += 2 * row.speed(acceleration) * std::max(0.0, gap);
     if (square < rest_speed_m_s_ * rest_speed_m_s_ ||
-        square < 2 * kMinEventShare * min_safe_work_J_ * row.inverse_mass)
+        square < 2 * kMinEventEnergy * min_safe_work_J_ * row.inverse_mass)
       continue;
     const double closing = speed + std::sqrt(square);  // twice the mean closing speed
     if (closing <= 0) continue;
     if (touches(i)) {
       if (events_ == 1) return 0;
-    } else if (events_ <= kSingleEvents) {
+    } else if (events_ <= kOrderedEvents) {
       wait = std::min(wait, 2 * gap / closing);
     } else if (square > hardest * row.inverse_mass && time_s_ + 2 * gap / closing <= dt_s_) {
       hardest = square / row.inverse_mass;
@@ -212,7 +197,7 @@ bool EventProbe::may_break_any() const {
     impulses_Ns[rows_[closed_[i]].b] += with_->impulses_Ns[i];
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const double speed_m_s = kMaxSpeedUp * fastest_m_s_;
+    const double speed_m_s = kMaxProbeSpeedGain * fastest_m_s_;
     if (undecided_[b] &&
         !bodies_[b].withstands(speed_m_s * impulses_Ns[b], impulses_Ns[b], speed_m_s))
       return true;

@@ -4,18 +4,10 @@
 #include <algorithm>
 
 #include "engine/base/parallel.h"
+#include "solver/particles/tuning.h"
 
 namespace sunder::solver {
 namespace {
-
-constexpr float kAir_kg_m3 = 1.2f;
-// Net outflow of a cell at which the pressure solve ends, as a fraction of the fastest flow.
-constexpr float kOutflowTolerance = 8e-4f;
-constexpr float kLinearShare = 0.25f;  // share of linear interpolation; 1: advection of first order
-// A wall of a thickness of at least 1 / this, in cells, is airtight.
-constexpr float kCoverGain = 1.5f;
-// Least open fraction of a face; above 0, so that the pressure in closed cavities is defined.
-constexpr float kMinOpenFraction = 0.02f;
 
 /// Calls work(first index, number of faces in the row, j, k) for every row of faces of an axis.
 template <class Work>
@@ -62,8 +54,8 @@ float clamp_to_one_cell(float x) { return least(most(x, -1), 1); }
 struct Taps {
   float low, middle, high;
   explicit Taps(float x) {
-    const float linear = kLinearShare * most(x, -x);
-    const float square = (1 - kLinearShare) * x * x;
+    const float linear = kLinearAdvection * most(x, -x);
+    const float square = (1 - kLinearAdvection) * x * x;
     low = 0.5f * (square + linear + x);
     high = 0.5f * (square + linear - x);
     middle = 1 - square - linear;
@@ -188,7 +180,7 @@ void Air::advect(float dt_s) {
 /// Applies the weight of the dust and the momentum of newly emitted dust to the air.
 void Air::apply_dust_loads(float dt_s, const Vec3f& gravity_W) {
   const auto volume = static_cast<float>(grid_.cell_m * grid_.cell_m * grid_.cell_m);
-  const float air_kg = kAir_kg_m3 * volume;
+  const float air_kg = kAirDensity_kg_m3 * volume;
   const auto apply = [&](int axis, std::size_t face) {
     const std::size_t below = face - static_cast<std::size_t>(grid_.lattice.stride(axis));
     const float dust_kg = 0.5f * (dust_kg_[below] + dust_kg_[face]);

@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/particles/tuning.h"
+
 namespace sunder::solver {
 namespace {
-
-// Spall speed of a face that does not open, in m/s, and the share of the opening speed added to it.
-constexpr double kSpall_m_s = 0.25, kSpallPerOpeningSpeed = 0.04;
-// Chips leave at the spall speed / (u + this), u uniform in [0, 1): one in ten at least about six
-// times as fast as the spall speed, none more than about 14 times.
-constexpr double kSpallSpeedOffset = 0.07;
-// Share of particles that a closed crack emits, and opening speed, in m/s, for all particles.
-constexpr double kClosedCrackShare = 0.05, kFullEmissionSpeed_m_s = 4;
-constexpr double kMaxChipSpin_s = 15;  // greatest angular speed of a new chip, in rad/s
-// Share of the velocity of its solid that new dust has: air drag slows it down.
-constexpr double kDustVelocityShare = 0.4;
-constexpr double kMinPuffRadius_m = 0.09;  // least radius of a new puff; the greatest is twice that
 
 double area(const ExposedPolygon& face) {
   Vec3 sum = Vec3::Zero();
@@ -30,7 +20,7 @@ double area(const ExposedPolygon& face) {
 /// Returns the number of particles, debris and dust together, that a square metre emits.
 double emission_density_m2(const ExposedPolygon& face) {
   return face.crumbling.particles_per_m2 *
-         std::min(1.0, kClosedCrackShare + face.opening_speed_m_s / kFullEmissionSpeed_m_s);
+         std::min(1.0, kClosedCrackEmission + face.opening_speed_m_s / kFullEmissionSpeed_m_s);
 }
 
 /// Returns a uniform random point of the polygon: a triangle of its fan by area, a point of that.
@@ -74,7 +64,7 @@ std::uint8_t random_variant(Random& random) {
 }
 
 double spall_m_s(const ExposedPolygon& face) {
-  return kSpall_m_s + kSpallPerOpeningSpeed * face.opening_speed_m_s;
+  return kSpallSpeed_m_s + kSpallPerOpening * face.opening_speed_m_s;
 }
 
 DebrisBirth chip_from(const ExposedPolygon& face, double area_m2, Random& random) {
@@ -97,8 +87,8 @@ DebrisBirth chip_from(const ExposedPolygon& face, double area_m2, Random& random
 DustBirth puff_from(const ExposedPolygon& face, double area_m2, Random& random) {
   const DebrisEmission& crumbling = face.crumbling;
   const Vec3 point = point_on(face, area_m2, random);
-  const Vec3 velocity = kDustVelocityShare * face.motion(point) +
-                        spall_m_s(face) * (face.normal_W + random.direction());
+  const Vec3 velocity =
+      kDustVelocity * face.motion(point) + spall_m_s(face) * (face.normal_W + random.direction());
   // The dust mass of a square metre, divided by its number of puffs.
   const double mass_kg =
       crumbling.dust_kg_m2 / (crumbling.particles_per_m2 * (1 - crumbling.debris_ratio));

@@ -9,6 +9,7 @@
 #include "engine/base/parallel.h"
 #include "solver/base/morton_order.h"
 #include "solver/base/wide.h"
+#include "solver/particles/tuning.h"
 
 namespace sunder::solver {
 namespace {
@@ -17,21 +18,6 @@ constexpr std::uint32_t kGround = 0xffffffff;  // support index of the ground
 constexpr std::size_t kChipsPerBatch = 16;     // chips that query the obstacle grid together
 constexpr std::size_t kChipsPerChunk = 32 * kChipsPerBatch;
 constexpr std::uint32_t kStepsPerSort = 16;
-constexpr float kFriction = 0.6f;
-constexpr float kRestitution = 0.3f;
-constexpr float kRestitutionThreshold_m_s = 0.4f;  // least closing speed for restitution
-constexpr double kContactGap_m = 2e-4;  // gap kept between a chip and the surface it touches
-constexpr double kMaxPushOut_m_s = 2;   // greatest speed at which penetration is corrected
-// Damping of the spin in contact, in 1/s; high, so that chips do not roll.
-constexpr float kContactSpinDamping_s = 150;
-constexpr float kFlightSpinDamping_s = 0.5f;  // damping of the spin in flight, 1/s
-constexpr float kSleepSpeed_m_s = 0.1f;       // slower chips may fall asleep
-constexpr float kTimeToSleep_s = 0.25f;       // time below that speed before a chip falls asleep
-constexpr float kFade_s = 0.75f;              // time in which a fading chip shrinks to nothing
-constexpr double kSupportShift_m = 1e-3;      // a support that moved farther wakes its chips
-constexpr double kSupportTurn_rad = 1e-3;     // a support that turned farther wakes its chips
-constexpr std::uint32_t kChipReserve = 16;    // 1 / this of the limit is kept free for new chips
-constexpr int kMaxBounces = 2;                // contacts of a chip within one step, after the first
 
 /// Applies the contact of a sphere with a surface: restitution, Coulomb friction and rolling.
 void apply_contact(Vec3f& velocity, Vec3f& angular_velocity, float radius_m, const Vec3f& normal,
@@ -39,14 +25,13 @@ void apply_contact(Vec3f& velocity, Vec3f& angular_velocity, float radius_m, con
   const Vec3f relative = velocity - surface_velocity;
   const float closing_speed = -normal.dot(relative);
   if (closing_speed <= 0) return;
-  const float normal_change = closing_speed > kRestitutionThreshold_m_s
-                                  ? (1 + kRestitution) * closing_speed
-                                  : closing_speed;
+  const float normal_change =
+      closing_speed > kMinReboundSpeed_m_s ? (1 + kChipRestitution) * closing_speed : closing_speed;
   const Vec3f slip = relative + closing_speed * normal - radius_m * angular_velocity.cross(normal);
   const float slip_speed = slip.norm();
   // A velocity change of 2/7 of the slip stops it: the effective mass of a sphere at its surface.
   const float stopping_change = slip_speed * (2.0f / 7);
-  const float friction = std::min(stopping_change, kFriction * normal_change);
+  const float friction = std::min(stopping_change, kChipFriction * normal_change);
   velocity += normal_change * normal;
   if (slip_speed <= 0) return;
   const Vec3f change = slip * (-friction / slip_speed);
@@ -204,7 +189,8 @@ void Debris::prefetch_chip(std::uint32_t chip) const {
   prefetch_each(position_W_, velocity_W_, angular_velocity_W_, rotation_WD_, radius_m_);
 }
 
-/// Moves chips: each flies to its first contact, bounces and flies on, at most kMaxBounces times.
+/// Moves chips: each flies to its first contact, bounces and flies on, at most kMaxChipBounces
+/// times.
 void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> results, double dt_s,
                   double ground_m, ObstacleGrid::Near& near) {
   std::array<SpherePath, kChipsPerBatch> paths;    // remaining paths of the chips that still fly
@@ -235,7 +221,7 @@ void Debris::move(std::span<const std::uint32_t> chips, std::span<StepResult> re
       const std::size_t which = flying[i];
       const bool on =
           advance_to_contact(chips[which], paths[i], touches[i], dt_s, ground_m, results[which]);
-      if (!on || bounces == kMaxBounces) continue;
+      if (!on || bounces == kMaxChipBounces) continue;
       paths[left] = paths[i];
       flying[left++] = which;
     }
@@ -259,15 +245,16 @@ bool Debris::advance_to_contact(std::uint32_t chip, SpherePath& path,
     path.from = path.to;
     path.duration_s = 0;
   } else {
-    result = {true, touch->velocity_W.norm() < ObstacleGrid::kRestSpeed_m_s, touch->body};
+    result = {true, touch->velocity_W.norm() < kObstacleRestSpeed_m_s, touch->body};
     if (touch->depth_m > 0 && touch->time <= 0) {
-      path.from = path.to + std::min(touch->depth_m, kMaxPushOut_m_s * dt_s) * touch->normal_W;
+      path.from =
+          path.to + std::min(touch->depth_m, kMaxChipPushSpeed_m_s * dt_s) * touch->normal_W;
       path.duration_s = 0;
     } else {
       path.from += touch->time * (path.to - path.from);
       path.duration_s *= 1 - touch->time;
     }
-    path.from += kContactGap_m * touch->normal_W;
+    path.from += kChipContactGap_m * touch->normal_W;
     apply_contact(velocity_W_[chip], angular_velocity_W_[chip], radius_m_[chip],
                   touch->normal_W.cast<float>(), touch->velocity_W.cast<float>());
   }
@@ -279,8 +266,8 @@ bool Debris::advance_to_contact(std::uint32_t chip, SpherePath& path,
 /// Damps the spin of chips and integrates their rotations; accurate for turns well below a radian.
 void Debris::integrate_rotations(std::span<const std::uint32_t> chips,
                                  std::span<const StepResult> results, float dt_s) {
-  const float touched = 1 / (1 + dt_s * kContactSpinDamping_s);
-  const float flying = 1 / (1 + dt_s * kFlightSpinDamping_s);
+  const float touched = 1 / (1 + dt_s * kContactSpinDamping_1_s);
+  const float flying = 1 / (1 + dt_s * kFlightSpinDamping_1_s);
   float q[4][kChipsPerBatch] = {}, w[3][kChipsPerBatch] = {};
   for (std::size_t i = 0; i < chips.size(); ++i) {
     Vec3f& spin = angular_velocity_W_[chips[i]];
@@ -310,9 +297,9 @@ void Debris::put_to_sleep(double dt_s, const Obstacles& obstacles) {
     const std::uint32_t chip = awake_[i];
     const std::uint32_t body = results_[i].support;
     const bool still = results_[i].on_still_surface &&
-                       velocity_W_[chip].squaredNorm() < kSleepSpeed_m_s * kSleepSpeed_m_s;
+                       velocity_W_[chip].squaredNorm() < kMaxSleepSpeed_m_s * kMaxSleepSpeed_m_s;
     slow_s_[chip] = still ? slow_s_[chip] + static_cast<float>(dt_s) : 0;
-    if (slow_s_[chip] < kTimeToSleep_s) continue;
+    if (slow_s_[chip] < kMinChipRestTime_s) continue;
     state_[chip] = State::kAsleep;
     velocity_W_[chip].setZero();
     angular_velocity_W_[chip].setZero();
@@ -353,7 +340,7 @@ void Debris::fade(float dt_s) {
   // In descending order, because removal moves the last chip into the gap.
   std::ranges::sort(fading_);
   for (auto chip = fading_.rbegin(); chip != fading_.rend(); ++chip) {
-    drawn_radius_m_[*chip] -= radius_m_[*chip] * dt_s / kFade_s;
+    drawn_radius_m_[*chip] -= radius_m_[*chip] * dt_s / kChipFade_s;
     if (drawn_radius_m_[*chip] <= 0) remove(*chip);
   }
 }

@@ -41,7 +41,7 @@ class Debris {
   /// Result of a step for one chip.
   struct StepResult {
     bool touched = false;
-    bool on_still_surface = false;  ///< Touches a surface slower than ObstacleGrid::kRestSpeed_m_s.
+    bool on_still_surface = false;  ///< Touches a surface slower than kObstacleRestSpeed_m_s.
     std::uint32_t support = 0;      ///< Index of the body that was touched, or kGround.
   };
   /// A body that sleeping chips rest on.

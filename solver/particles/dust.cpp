@@ -8,27 +8,13 @@
 #include "engine/base/parallel.h"
 #include "solver/base/morton_order.h"
 #include "solver/particles/rotate.h"
+#include "solver/particles/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
 constexpr std::size_t kPuffsPerChunk = 256;
-constexpr float kSlipDecay_s = 0.15f;        // relaxation time of emitted dust to the air velocity
-constexpr float kEmissionTurbulence = 0.2f;  // turbulent speed of new dust / its emission speed
-constexpr float kSpread_m2_s = 0.004f;       // growth of a puff's squared radius in still air
-constexpr float kMaxOpacity = 0.45f;
-constexpr float kMinOpacity = 0.008f;  // puffs of less are removed
-constexpr float kFadeIn_s = 0.1f;
-constexpr float kFadeOut_s = 2;  // fade time of settled dust
-// Solid fraction of a cell from which its dust is settled.
-constexpr float kSettlingSolidFraction = 0.9f;
-constexpr float kEarlyFadeFactor = 4;  // speed-up of the fading of the oldest puffs near the limit
-constexpr std::size_t kCellsPerPuff = 8;  // air cells wanted per puff; more are not worth the cost
-// 1 / this of the puffs, on each side, may leave the air
-constexpr std::size_t kOutlierDivisor = 32;
 constexpr std::size_t kPrefetchDistance = 8;  // puffs between prefetching and reading
-constexpr std::size_t kCloudSamples = 4096;   // puffs sampled for the box of the cloud, about
-constexpr std::uint32_t kPuffReserve = 16;    // 1 / this of the limit is kept free for new dust
 
 Vec3f axis_of(const Quatf& rotation) { return rotation * Vec3f::UnitZ(); }
 
@@ -51,7 +37,7 @@ void Dust::add(const DustBirth& birth) {
   rotation_WD_.push_back(birth.rotation_WD);
   mass_kg_.push_back(birth.mass_kg);
   settling_m_s_.push_back(birth.settling_m_s);
-  turbulence_m_s_.push_back(kEmissionTurbulence * birth.velocity_W.norm());
+  turbulence_m_s_.push_back(kDustTurbulence * birth.velocity_W.norm());
   first_radius_m_.push_back(birth.radius_m);
   radius_m_.push_back(birth.radius_m);
   opacity_.push_back(0);
@@ -86,7 +72,7 @@ void Dust::advance(double dt_s, const Obstacles& obstacles) {
 Box Dust::cloud_box() {
   Box box;
   const std::size_t every = 1 + position_W_.size() / kCloudSamples;
-  const std::size_t outliers = (position_W_.size() + every - 1) / every / kOutlierDivisor;
+  const std::size_t outliers = (position_W_.size() + every - 1) / every / kPuffsPerOutlier;
   for (int axis = 0; axis < 3; ++axis) {
     sorted_m_.clear();
     for (std::size_t p = 0; p < position_W_.size(); p += every) {
@@ -110,7 +96,7 @@ Vec3i Dust::cells_for(std::size_t puffs) const {
     const Vec3i part = (step * air_cells_ + Vec3i::Constant(kSteps * kUnit - 1)) / (kSteps * kUnit);
     const Vec3i cells = kUnit * part;
     const bool fewer = cells.prod() < wanted_cells_.prod();
-    const std::size_t wanted = kCellsPerPuff * puffs * (fewer ? 3 : 2) / 2;
+    const std::size_t wanted = kAirCellsPerPuff * puffs * (fewer ? 3 : 2) / 2;
     if (static_cast<std::size_t>(cells.prod()) >= wanted) return cells;
   }
   return air_cells_;
@@ -119,15 +105,13 @@ Vec3i Dust::cells_for(std::size_t puffs) const {
 /// Returns `cells` halved along the axes on which the cloud fits into half of them, at the same
 /// cell size; about half of all clouds are flat or long.
 Vec3i Dust::halve_where_possible(Vec3i cells, const Vec3& extent) const {
-  // Hysteresis: share of the halved extent into which the cloud must fit before cells are halved.
-  constexpr double kHalvingMargin = 0.75;
   const Vec3i now = flow_ ? flow_->air.grid().lattice.counts : Vec3i(Vec3i::Zero());
   const double cell_m = cell_m_for(extent, cells);
   const Vec3i least(16, 8, 8);  // required by the coarser grids of the pressure solver
   for (int axis = 0; axis < 3; ++axis) {
     while (cells[axis] % 16 == 0 && cells[axis] / 2 >= least[axis]) {
       const int half = cells[axis] / 2;
-      const double part = now[axis] > 0 && now[axis] <= half ? 1 : kHalvingMargin;
+      const double part = now[axis] > 0 && now[axis] <= half ? 1 : kAirHalvingMargin;
       if (!grid_fits(extent[axis], half, part * cell_m)) break;
       cells[axis] = half;
     }
@@ -228,13 +212,13 @@ void Dust::move(std::size_t puff, const Surroundings& around, float dt_s, float 
 
   Vec3f drift = settling_m_s_[puff] * down_W_;
   if (around.cell != kOutside) drift += around.swirl.velocity(air.to_cells(position));
-  slip_W_[puff] /= 1 + dt_s / kSlipDecay_s;
+  slip_W_[puff] /= 1 + dt_s / kDustSlipDecay_s;
   const Vec3f own_velocity = slip_W_[puff] + (1 - around.solid) * drift;
   const Vec3f middle = position + 0.5f * dt_s * (air.velocity(position) + own_velocity);
   position += dt_s * (air.velocity(middle) + own_velocity);
 
   float& radius = radius_m_[puff];
-  const float mixing = kSpread_m2_s + 0.1f * cell_m * turbulence;
+  const float mixing = kDustSpread_m2_s + kTurbulentSpread * cell_m * turbulence;
   radius = std::sqrt(radius * radius + dt_s * mixing);
   age_s_[puff] += dt_s;
   settle(puff, dt_s, around.solid, ground_m);
@@ -242,23 +226,23 @@ void Dust::move(std::size_t puff, const Surroundings& around, float dt_s, float 
 
 void Dust::settle(std::size_t puff, float dt_s, float solid, float ground_m) {
   Vec3f& position = position_W_[puff];
-  const bool lies = position.y() <= ground_m || solid > kSettlingSolidFraction;
+  const bool lies = position.y() <= ground_m || solid > kSettledSolidFraction;
   position.y() = std::max(position.y(), ground_m);
   const std::size_t kept = limit_ - limit_ / kPuffReserve;
   const bool near_limit = position_W_.size() > kept && puff < position_W_.size() - kept;
   float& settled = settled_s_[puff];
-  if (lies || near_limit) settled += dt_s * (near_limit ? kEarlyFadeFactor : 1);
+  if (lies || near_limit) settled += dt_s * (near_limit ? kEarlyFadeRate : 1);
   const float thin = first_radius_m_[puff] / radius_m_[puff];
-  const float appear = std::min(1.0f, age_s_[puff] / kFadeIn_s);
-  const float stay = std::max(0.0f, 1 - settled / kFadeOut_s);
+  const float appear = std::min(1.0f, age_s_[puff] / kDustFadeIn_s);
+  const float stay = std::max(0.0f, 1 - settled / kDustFadeOut_s);
   // The power 3/2 in place of the 2 of uniform thinning, because dust forms clots.
-  opacity_[puff] = kMaxOpacity * appear * stay * thin * std::sqrt(thin);
+  opacity_[puff] = kMaxDustOpacity * appear * stay * thin * std::sqrt(thin);
 }
 
 /// Removes puffs that have faded; the others keep their order.
 void Dust::remove_settled() {
   const auto gone = [&](std::size_t puff) {
-    return age_s_[puff] >= kFadeIn_s && opacity_[puff] < kMinOpacity;
+    return age_s_[puff] >= kDustFadeIn_s && opacity_[puff] < kMinDustOpacity;
   };
   std::size_t kept = 0;
   while (kept < position_W_.size() && !gone(kept)) ++kept;

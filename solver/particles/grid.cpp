@@ -3,17 +3,10 @@
 #include <cmath>
 
 #include "engine/base/check.h"
+#include "solver/particles/tuning.h"
 
 namespace sunder::solver {
 namespace {
-
-constexpr double kMinCell_m = 0.125;
-constexpr double kCellSizeStep = 1.4142135623730951;  // factor by which the cell size changes
-// Margin around the dust when placed, as a fraction of the grid.
-constexpr double kPlacingMargin = 0.15;
-// Height above the ground, in cells, below which dust gets a grid with the ground as its floor.
-constexpr double kGroundCells = 6;
-constexpr double kKeepingMargin = 0.075;  // margin below which the grid moves, fraction of the grid
 
 /// Returns true if dust of this extent fits with the margin along all axes.
 bool fits_along_all_axes(const Vec3& extent, const Vec3i& counts, double cell_m) {
@@ -26,25 +19,25 @@ bool fits_along_all_axes(const Vec3& extent, const Vec3i& counts, double cell_m)
 double rounded_to_multiple(double x, double unit) { return std::floor(x / unit + 0.5) * unit; }
 
 bool has_too_large_cells(const Grid& grid, const Vec3& extent) {
-  const double smaller_m = grid.cell_m / (kCellSizeStep * kCellSizeStep);
-  return smaller_m > 0.99 * kMinCell_m &&
+  const double smaller_m = grid.cell_m / (kAirCellStep * kAirCellStep);
+  return smaller_m > 0.99 * kMinAirCell_m &&
          fits_along_all_axes(extent, grid.lattice.counts, smaller_m);
 }
 
 }  // namespace
 
 bool grid_fits(double extent_m, int count, double cell_m) {
-  return extent_m <= (1 - 2 * kPlacingMargin) * cell_m * count;
+  return extent_m <= (1 - 2 * kAirPlacingMargin) * cell_m * count;
 }
 
 double cell_m_for(const Vec3& extent, const Vec3i& counts) {
-  double cell_m = kMinCell_m;
-  while (!fits_along_all_axes(extent, counts, cell_m)) cell_m *= kCellSizeStep;
+  double cell_m = kMinAirCell_m;
+  while (!fits_along_all_axes(extent, counts, cell_m)) cell_m *= kAirCellStep;
   return cell_m;
 }
 
 bool may_stay(const Grid& grid, const Box& dust) {
-  const Vec3 margin = kKeepingMargin * grid.extent_m();
+  const Vec3 margin = kAirKeepingMargin * grid.extent_m();
   const Vec3 over = dust.max + margin - grid.origin_W - grid.extent_m();
   const Vec3 under = dust.min - margin - grid.origin_W;
   const bool inside = (over.array() <= 0).all() && under.x() >= 0 && under.z() >= 0 &&
@@ -64,10 +57,10 @@ Grid grid_around(const Box& dust, double ground_m, const Grid& old, bool placed)
   const Vec3 from = placed ? old.origin_W : corner;
   grid.origin_W.x() = from.x() + rounded_to_multiple(corner.x() - from.x(), grid.cell_m);
   grid.origin_W.z() = from.z() + rounded_to_multiple(corner.z() - from.z(), grid.cell_m);
-  const double above_m = dust.min.y() - kPlacingMargin * grid.extent_m().y() - ground_m;
-  const double top_m = ground_m + (1 - kPlacingMargin) * grid.extent_m().y();
-  grid.on_ground = above_m <= 0 ||
-                   (dust.max.y() <= top_m && dust.min.y() <= ground_m + kGroundCells * grid.cell_m);
+  const double above_m = dust.min.y() - kAirPlacingMargin * grid.extent_m().y() - ground_m;
+  const double top_m = ground_m + (1 - kAirPlacingMargin) * grid.extent_m().y();
+  grid.on_ground = above_m <= 0 || (dust.max.y() <= top_m &&
+                                    dust.min.y() <= ground_m + kAirGroundCells * grid.cell_m);
   grid.origin_W.y() = ground_m + (grid.on_ground ? 0 : rounded_to_multiple(above_m, grid.cell_m));
   return grid;
 }

@@ -5,35 +5,27 @@
 #include <cmath>
 
 #include "engine/base/parallel.h"
+#include "solver/particles/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr float kFinestCell_m = 0.5f;  // cell size of level 0; the size doubles with each level
-// Shapes are entered into all cells within this distance, so that a query box of up to twice this
-// size needs only one cell per level.
-constexpr float kCellMargin_m = 0.0625f;
-constexpr float kMaxCellsPerShape = 8;  // greatest number of cells per shape
 // Rounding error of positions: absolute, and as a fraction of the distance from the origin.
 constexpr double kPositionError_m = 1e-4, kRelativePositionError = 3e-7;
-constexpr float kQueryMargin_m = 0.005f;  // margin of a query, so that bounces can reuse its result
-// Greatest size of a box that holds several paths in one query.
-constexpr float kMaxSharedQuery_m = 2;
 constexpr int kLevels = 31;
-// Query boxes larger than this are tested against all shapes.
-constexpr float kMaxHashedQuery_m = 8 * kFinestCell_m;
-constexpr double kPathPart_m = 2;     // longer paths are queried in parts of this length
-constexpr double kMaxPathParts = 64;  // paths of more parts are queried in one
 constexpr std::size_t kObstaclesPerChunk = 512;
 
 /// Returns the number of cells of a level per metre along an axis.
-float cells_per_m(int level) { return 1 / (kFinestCell_m * static_cast<float>(1 << level)); }
+float cells_per_m(int level) {
+  return 1 / (kFinestObstacleCell_m * static_cast<float>(1 << level));
+}
 
-/// Returns the finest level on which a box of that extent overlaps at most kMaxCellsPerShape cells.
+/// Returns the finest level on which a box of that extent overlaps at most kMaxCellsPerObstacle
+/// cells.
 int level_of(const Vec3f& extent) {
   for (int level = 0;; ++level) {
-    const Vec3f cells = (extent.array() + 2 * kCellMargin_m) * cells_per_m(level) + 1;
-    if (level + 1 == kLevels || cells.prod() <= kMaxCellsPerShape) return level;
+    const Vec3f cells = (extent.array() + 2 * kObstacleCellMargin_m) * cells_per_m(level) + 1;
+    if (level + 1 == kLevels || cells.prod() <= kMaxCellsPerObstacle) return level;
   }
 }
 
@@ -47,7 +39,7 @@ std::uint32_t hash_of(int level, const Eigen::Vector3i& cell) {
 /// Returns the cell of level 0 that holds a point; a right shift by a level gives the cell there.
 Eigen::Vector3i cell_of(const Vec3f& point_W) {
   // Clamped far outside any scene, so that the cast is defined.
-  return (point_W / kFinestCell_m).array().floor().max(-1e9f).min(1e9f).cast<int>();
+  return (point_W / kFinestObstacleCell_m).array().floor().max(-1e9f).min(1e9f).cast<int>();
 }
 
 /// Calls visit(hash, cell) for the cells of a level around the level-0 cells `first` to `last`.
@@ -93,7 +85,7 @@ void ObstacleGrid::compute_boxes(std::size_t begin, std::size_t end, Which which
     box.max = center + half;
     if (!body.moves) continue;
     const double spin_m_s = body.angular_velocity_W.norm() * reach;
-    if (which == Which::kMoving && body.velocity_W.norm() + spin_m_s < kRestSpeed_m_s) {
+    if (which == Which::kMoving && body.velocity_W.norm() + spin_m_s < kObstacleRestSpeed_m_s) {
       box = Box();
       continue;
     }
@@ -139,8 +131,8 @@ void ObstacleGrid::sort_into_cells() {
   const auto each_cell = [&](const PlacedObstacle& placed, const auto& visit) {
     const int level = level_of(placed.max - placed.min);
     levels_ |= 1u << level;
-    for_cells(level, cell_of(placed.min.array() - kCellMargin_m),
-              cell_of(placed.max.array() + kCellMargin_m),
+    for_cells(level, cell_of(placed.min.array() - kObstacleCellMargin_m),
+              cell_of(placed.max.array() + kObstacleCellMargin_m),
               [&](std::uint32_t hash, const Eigen::Vector3i&) { visit(hash & mask_); });
   };
   // While entries are filled in, first_[b + 1] is the next free entry of bucket b.
@@ -205,8 +197,8 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
   }
   const Four low_4 = four(low), high_4 = four(high);
   const Vec3f middle = 0.5f * (low + high);
-  const Eigen::Vector3i first = cell_of((low.array() + kCellMargin_m).min(middle.array()));
-  const Eigen::Vector3i last = cell_of((high.array() - kCellMargin_m).max(middle.array()));
+  const Eigen::Vector3i first = cell_of((low.array() + kObstacleCellMargin_m).min(middle.array()));
+  const Eigen::Vector3i last = cell_of((high.array() - kObstacleCellMargin_m).max(middle.array()));
   for (std::uint32_t left = levels_; left != 0; left &= left - 1) {
     const int level = std::countr_zero(left);
     for_cells(level, first, last, [&](std::uint32_t hash, const Eigen::Vector3i& cell) {
@@ -215,7 +207,8 @@ void ObstacleGrid::find(const Vec3f& low, const Vec3f& high,
         const Entry& entry = entries_[e];
         if (!overlaps_box(entry, low_4, high_4)) continue;
         const Vec3f corner(entry.min[0], entry.min[1], entry.min[2]);
-        const Eigen::Vector3i begin = cell_of(corner.array() - kCellMargin_m).cwiseMax(first);
+        const Eigen::Vector3i begin =
+            cell_of(corner.array() - kObstacleCellMargin_m).cwiseMax(first);
         if (Eigen::Vector3i(begin.x() >> level, begin.y() >> level, begin.z() >> level) == cell) {
           shapes.push_back(entry.placed());
         }
@@ -238,7 +231,8 @@ void ObstacleGrid::find(std::span<const SpherePath> paths, Near& near) const {
     high = high.cwiseMax(high_of(path));
   }
   if ((low.array() >= near.low.array()).all() && (high.array() <= near.high.array()).all()) return;
-  near = {std::move(near.shapes), low.array() - kQueryMargin_m, high.array() + kQueryMargin_m};
+  near = {std::move(near.shapes), low.array() - kObstacleQueryMargin_m,
+          high.array() + kObstacleQueryMargin_m};
   near.shapes.clear();
   if ((high - low).maxCoeff() <= kMaxSharedQuery_m) {
     find(near.low, near.high, near.shapes);
@@ -246,7 +240,7 @@ void ObstacleGrid::find(std::span<const SpherePath> paths, Near& near) const {
   }
   near.high = near.low - Vec3f::Ones();  // empty: the result is valid for these paths alone
   for (const SpherePath& path : paths) {
-    const double parts = std::ceil((path.to - path.from).cwiseAbs().maxCoeff() / kPathPart_m);
+    const double parts = std::ceil((path.to - path.from).cwiseAbs().maxCoeff() / kMaxPathPart_m);
     if (!(parts > 1 && parts <= kMaxPathParts)) {
       find(low_of(path), high_of(path), near.shapes);
       continue;

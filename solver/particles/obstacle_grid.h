@@ -18,8 +18,6 @@ namespace sunder::solver {
 class ObstacleGrid {
  public:
   enum class Which { kAll, kMoving };
-  /// Speed below which an obstacle counts as at rest for chips.
-  static constexpr double kRestSpeed_m_s = 0.05;
 
   /// Builds the grid of obstacles that touch `region` within the last dt_s; they must outlive
   /// queries.

@@ -6,13 +6,11 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "solver/particles/tuning.h"
 
 namespace sunder::solver {
 namespace {
 
-constexpr int kMaxPressureIterations = 16;
-constexpr int kSweeps = 2;  // smoothing sweeps before and after a coarser level
-constexpr int kCoarsestSweeps = 8;
 constexpr int kSumLanes = 8;
 
 /// Calls work(j, k) for every row of cells of each layer, layers in parallel.
@@ -206,7 +204,7 @@ void PressureSolver::cycle(std::size_t at) {
   Level& level = levels_[at];
   smooth_from_zero(level);
   const bool coarsest = at + 1 == levels_.size();
-  const int sweeps = coarsest ? kCoarsestSweeps : kSweeps;
+  const int sweeps = coarsest ? kCoarsestSweeps : kSmoothingSweeps;
   for (int i = 1; i < sweeps; ++i) smooth(level, Order::kForward);
   if (!coarsest) {
     restrict_residual(level, levels_[at + 1]);

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "solver/particles/tuning.h"
+
 namespace sunder::solver {
 namespace {
 
-constexpr float kProduction = 0.1f;   // C_k of the one-equation model
-constexpr float kDissipation = 1.0f;  // C_epsilon of the one-equation model
 // Factor that makes the greatest value of the vortex profile q (1 − q²)² equal to 1.
 constexpr float kProfile = 3.4939f;
 
@@ -83,8 +83,8 @@ Vec3f Swirl::Near::velocity(const Vec3f& at) const {
 }
 
 float grow_turbulence(float speed_m_s, const Mat3f& strain_s, float cell_m, float dt_s) {
-  const float grown = speed_m_s + dt_s * kProduction * cell_m * strain_s.squaredNorm();
-  return grown / (1 + dt_s * 0.5f * kDissipation * speed_m_s / cell_m);
+  const float grown = speed_m_s + dt_s * kTurbulenceProduction * cell_m * strain_s.squaredNorm();
+  return grown / (1 + dt_s * 0.5f * kTurbulenceDissipation * speed_m_s / cell_m);
 }
 
 Vec3f rod_spin(const Vec3f& axis, const Vec3f& vorticity_s, const Mat3f& strain_s) {

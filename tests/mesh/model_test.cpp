@@ -198,7 +198,7 @@ TEST(Glb, KeepsAppearancesWithTheirTexturesAndCoordinates) {
       mesh.corner_uvs.emplace_back(static_cast<float>(at.x() + 4 * at.z()),
                                    static_cast<float>(at.y()));
     }
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) mesh.faces[f].mark = f % 3;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) mesh.faces[f].appearance = f % 3;
     convex->visual = std::make_shared<const PolygonMesh>(std::move(mesh));
     piece.convexes[0] = convex;
   }
@@ -245,7 +245,7 @@ TEST(ObjFolder, KeepsTheColorsOfAppearances) {
   std::vector<Compound> pieces = two_pieces();
   const auto convex = std::make_shared<Convex>(*pieces[0].convexes[0]);
   PolygonMesh mesh = polygon_mesh(convex->polyhedron);
-  mesh.faces[1].mark = 1;
+  mesh.faces[1].appearance = 1;
   convex->visual = std::make_shared<const PolygonMesh>(std::move(mesh));
   pieces[0].convexes[0] = convex;
   const Folder folder;

@@ -91,7 +91,7 @@ TEST_F(MeshAppearances, AreInTheSceneOnceEach) {
     for (const ConvexPtr& convex : solid.compound.convexes) {
       ASSERT_TRUE(convex->visual);
       for (const PolygonMesh::Face& face : convex->visual->faces)
-        EXPECT_EQ(face.mark != 0, face.id.none());
+        EXPECT_EQ(face.appearance != 0, face.id.none());
     }
   }
 }
@@ -122,7 +122,7 @@ TEST_F(MeshAppearances, AreLeftOutIfTheBodyUsesTheLookOfItsMaterial) {
   const Scene scene = load(kBody + "look = \"material\"\n");
   EXPECT_TRUE(scene.appearances.empty());
   for (const ConvexPtr& convex : scene.solids.at(0).compound.convexes) {
-    for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.mark, 0u);
+    for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.appearance, 0u);
   }
 }
 
@@ -130,7 +130,7 @@ TEST_F(MeshAppearances, AreNotInASolidMadeWithoutAScene) {
   const MeshSolid solid = make_mesh_solid((folder_ / "box.obj").string(), {});
   for (const ConvexPtr& convex : solid.compound.convexes) {
     ASSERT_TRUE(convex->visual);
-    for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.mark, 0u);
+    for (const PolygonMesh::Face& face : convex->visual->faces) EXPECT_EQ(face.appearance, 0u);
   }
 }
 

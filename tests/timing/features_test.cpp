@@ -31,7 +31,7 @@ TEST(Features, EachIsOnOrOffOrOffForAReasonInEveryScene) {
           << feature << ": " << state;
     }
   }
-  for (const char* feature : {"fracture", "impact_probe", "own_weight", "debris", "dust", "joints",
+  for (const char* feature : {"fracture", "impact_probe", "stress", "debris", "dust", "joints",
                               "sleeping", "continuous_collision", "visual_meshes", "script"}) {
     EXPECT_TRUE(on.contains(feature)) << feature;
     EXPECT_TRUE(off.contains(feature) || feature == std::string("sleeping")) << feature;
@@ -94,7 +94,7 @@ TEST(Features, UnusedByASceneDoNotChangeItsState) {
     more.limits.debris += 1000, more.limits.dust += 1000;
     EXPECT_EQ(state_of_run(more), as_it_is) << name << " with ageing, debris and dust";
     for (const char* feature :
-         {"fracture", "own_weight", "yielding", "debris", "dust", "ageing", "joints"}) {
+         {"fracture", "stress", "yielding", "debris", "dust", "ageing", "joints"}) {
       Scene less = scene;
       if (find_feature(feature)->state(less) != "on") continue;
       find_feature(feature)->turn_off(less);

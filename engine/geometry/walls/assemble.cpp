@@ -135,7 +135,8 @@ std::optional<OuterSurface> assemble(const PieceSurface& surface) {
   for (const PieceSurface::Face& face : surface.faces) {
     if (face.contours.empty()) continue;
     mesh.faces.push_back({face.plane, face.id, static_cast<std::uint32_t>(mesh.contours.size()),
-                          static_cast<std::uint32_t>(face.contours.size()), face.kind, face.mark});
+                          static_cast<std::uint32_t>(face.contours.size()), face.kind,
+                          face.appearance});
     result.from.push_back(face.mesh);
     for (const PieceSurface::Contour& contour : face.contours) {
       mesh.contours.push_back({static_cast<std::uint32_t>(mesh.corners.size()),

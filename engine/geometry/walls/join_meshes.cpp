@@ -131,7 +131,7 @@ PieceSurface join_meshes(std::span<const PolygonMesh* const> meshes, double tole
     number_of.reserve(mesh.vertices.size());
     for (const Vec3& vertex : mesh.vertices) number_of.push_back(joiner.number_of(vertex));
     for (const PolygonMesh::Face& face : mesh.faces) {
-      PieceSurface::Face joined{face.plane, face.id, face.kind, face.mark, m, {}};
+      PieceSurface::Face joined{face.plane, face.id, face.kind, face.appearance, m, {}};
       for (std::uint32_t k = face.first_contour; k < face.first_contour + face.contour_count; ++k) {
         auto contour = contour_of(mesh, face, mesh.contours[k], number_of);
         if (!contour.empty()) joined.contours.push_back(std::move(contour));

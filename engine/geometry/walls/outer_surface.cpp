@@ -100,7 +100,7 @@ PieceSurface triangles_on_common_points(const OuterSurface& outer) {
       clean_contour(contour);
       if (contour.empty()) continue;
       surface.faces.push_back(
-          {face.plane, face.id, face.kind, face.mark, outer.from[f], {contour}});
+          {face.plane, face.id, face.kind, face.appearance, outer.from[f], {contour}});
     }
   }
   return surface;

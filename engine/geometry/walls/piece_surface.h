@@ -32,7 +32,7 @@ struct PieceSurface {
     Plane plane;
     PlaneId id;
     FaceKind kind = FaceKind::kSurface;
-    std::uint32_t mark = 0;
+    std::uint32_t appearance = 0;
     std::uint32_t mesh = 0;  ///< Index of the face's mesh.
     std::vector<Contour> contours;
   };

@@ -24,7 +24,7 @@ std::string part_name(std::size_t index, std::size_t count) {
 std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
                           std::uint32_t first_appearance) {
   if (face.kind == FaceKind::kInterior) return 2 * material.value + 1;
-  return face.mark > 0 ? first_appearance + face.mark - 1 : 2 * material.value;
+  return face.appearance > 0 ? first_appearance + face.appearance - 1 : 2 * material.value;
 }
 
 /// Returns the shells of a piece. Sets `is_walled` to 1 if inner walls could not be removed.
@@ -76,7 +76,7 @@ Model make_model(std::span<const Compound> pieces, std::span<const Material> mat
     model.materials.push_back({"appearance " + std::to_string(p + 1), appearances[p]});
   }
   const auto is_known = [&](const PolygonMesh::Face& face) {
-    return face.mark <= appearances.size();
+    return face.appearance <= appearances.size();
   };
   Box all;
   for (const Compound& piece : pieces) all.extend(bounds(piece));

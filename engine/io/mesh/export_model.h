@@ -45,8 +45,8 @@ enum class Walls : std::uint8_t { kRemove, kKeep };
 /// Makes a part of each compound. With Walls::kRemove, a part has one shell, its outer surface;
 /// inner walls that cannot be removed remain. With Walls::kKeep, a part has one shell for each
 /// convex: its visual mesh, or its polyhedron if it has none. Parts are displaced from the centre
-/// of the model by `explode` times their distance from it. `appearances` are the appearance of
-/// faces by their mark, and become materials of their own.
+/// of the model by `explode` times their distance from it. `appearances` are those of
+/// faces (PolygonMesh::Face::appearance), and become materials of their own.
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
                  double explode, std::span<const Appearance> appearances = {},
                  Walls walls = Walls::kRemove);

@@ -6,11 +6,10 @@
 #include "engine/world/act/moves.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-constexpr std::uint32_t kFreeShare = 16;  // 1/16 of the limit of bodies is kept free for breaks
 
 /// Returns the actions that have become due since the last step.
 template <class Act>
@@ -121,7 +120,7 @@ void age(World& world) {
   const Limits& limits = world.scene.limits;
   const std::uint32_t most =
       limits.ageing > 0 ? std::min(limits.ageing, limits.bodies) : limits.bodies;
-  if (world.actors.size() <= most - most / kFreeShare) return;
+  if (world.actors.size() <= most - most / kBodyReserve) return;
   const BodyStates states = world.physics->states();
   std::vector<std::size_t> resting;
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
@@ -132,7 +131,7 @@ void age(World& world) {
   // Ascending by key already: equal volumes have a stable order.
   std::ranges::stable_sort(resting, {}, [&](std::size_t i) { return world.actors[i].volume_m3; });
   // Removes more than needed, so that not every step has to.
-  const std::size_t wanted = world.actors.size() - (most - 2 * (most / kFreeShare));
+  const std::size_t wanted = world.actors.size() - (most - 2 * (most / kBodyReserve));
   resting.resize(std::min(resting.size(), wanted));
   std::ranges::sort(resting);
   for (const std::size_t i : resting) {

@@ -10,14 +10,10 @@
 #include "engine/world/act/charge.h"
 #include "engine/world/act/cover.h"
 #include "engine/world/actors/make_actor.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-constexpr double kBreakDuration_s = 0.05;  // time of breaking before the impulse
-constexpr double kMaxEdgeShare = 0.35;     // largest edge of a triangle, over its distance
-constexpr int kMostHalvings = 4;           // of a triangle's edges
-constexpr double kTriedRadiusShare = 0.6;  // radius around a tried point, over the impact radius
 
 /// Impulse of a blast on a part of an actor.
 struct BlastImpulse {
@@ -42,7 +38,7 @@ void add_triangle(BlastImpulse& impulse, const Blast& blast, const Cover& cover,
   const Vec3 middle_W = (a + b + c) / 3;
   const double distance_m = (middle_W - blast.center_W).norm();
   const double edge_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  if (edge_m > kMaxEdgeShare * distance_m && halvings < kMostHalvings) {
+  if (edge_m > kMaxBlastEdge * distance_m && halvings < kMaxBlastHalvings) {
     const Vec3 ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
     for (const std::array<Vec3, 3>& part : {std::array{a, ab, ca}, std::array{ab, b, bc},
                                             std::array{ca, bc, c}, std::array{ab, bc, ca}}) {
@@ -122,7 +118,7 @@ bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
 bool was_tried(const World& world, const ActiveBlast& active, const Convex& convex,
                const BlastImpulse& impulse) {
   if (impulse.sum_Ns <= 0) return false;
-  const double radius = kTriedRadiusShare * world.material(convex.material).impact_radius_m;
+  const double radius = kTriedBlastRadius * world.material(convex.material).impact_radius_m;
   return std::ranges::any_of(active.tried_points_W, [&](const Vec3& tried_W) {
     return (tried_W - impulse.point_W()).norm() < radius;
   });
@@ -243,7 +239,7 @@ void apply_impulse(const World& world, const Blast& blast, const Cover& cover, D
 
 ActiveBlast start_blast(const World& world, const Blast& blast) {
   const auto number = static_cast<std::uint32_t>(&blast - world.scene.blasts.data());
-  return {blast, world.clock.time_s() + kBreakDuration_s, {}, number};
+  return {blast, world.clock.time_s() + kBlastBreakTime_s, {}, number};
 }
 
 std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& active) {

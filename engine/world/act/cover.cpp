@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "engine/world/act/charge.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
 
-constexpr int kCellsPerEdge = 48;             // along an edge of the cube
 constexpr double kDepthTolerance = 1 + 1e-3;  // on the distance of an end
 
 /// Point of the cube: a face, and coordinates there from -1 to 1.
@@ -34,13 +34,13 @@ CubePoint on_cube(const Vec3& direction) {
 }
 
 int cell_at(double u) {
-  return std::clamp(static_cast<int>(std::floor(0.5 * (u + 1) * kCellsPerEdge)), 0,
-                    kCellsPerEdge - 1);
+  return std::clamp(static_cast<int>(std::floor(0.5 * (u + 1) * kCoverCellsPerEdge)), 0,
+                    kCoverCellsPerEdge - 1);
 }
 
 /// Returns the direction of the centre of a cell.
 Vec3 direction_of(int face, int row, int column) {
-  const auto place = [](int i) { return 2 * (i + 0.5) / kCellsPerEdge - 1; };
+  const auto place = [](int i) { return 2 * (i + 0.5) / kCoverCellsPerEdge - 1; };
   const int axis = face / 2;
   Vec3 direction;
   direction[axis] = face % 2 == 0 ? 1 : -1;
@@ -52,7 +52,7 @@ Vec3 direction_of(int face, int row, int column) {
 /// Cells of a face that a box, given by its corners seen from the centre, may cover; none if all
 /// corners are behind the face.
 struct CellRange {
-  std::array<int, 2> first{kCellsPerEdge, kCellsPerEdge}, last{-1, -1};
+  std::array<int, 2> first{kCoverCellsPerEdge, kCoverCellsPerEdge}, last{-1, -1};
 };
 
 CellRange range_of(const std::array<Vec3, 8>& corners, int face) {
@@ -71,7 +71,7 @@ CellRange range_of(const std::array<Vec3, 8>& corners, int face) {
       range.last[i] = std::max(range.last[i], cell);
     }
   }
-  if (ahead && behind) return {{0, 0}, {kCellsPerEdge - 1, kCellsPerEdge - 1}};
+  if (ahead && behind) return {{0, 0}, {kCoverCellsPerEdge - 1, kCoverCellsPerEdge - 1}};
   return range;
 }
 
@@ -92,7 +92,7 @@ double end_of(const ConvexPolyhedron& convex, const Vec3& origin_R, const Vec3& 
 
 Cover::Cover(const World& world, const Blast& blast) : center_W_(blast.center_W) {
   if (!blast.cover) return;
-  cells_.resize(std::size_t{6} * kCellsPerEdge * kCellsPerEdge);
+  cells_.resize(std::size_t{6} * kCoverCellsPerEdge * kCoverCellsPerEdge);
   const BodyStates states = world.physics->states();
   for (const Actor& actor : world.actors) {
     const Pose X_WR = rest_pose(actor, states[actor.body].X_WB);
@@ -120,8 +120,8 @@ void Cover::add(const Convex& convex, const Pose& X_WR, std::uint32_t actor_key,
       for (int column = range.first[0]; column <= range.last[0]; ++column) {
         const Vec3 direction_R = X_RW.rotation * direction_of(face, row, column);
         const double end_m = end_of(convex.polyhedron, origin_R, direction_R);
-        Cell& cell =
-            cells_[static_cast<std::size_t>((face * kCellsPerEdge + row) * kCellsPerEdge + column)];
+        Cell& cell = cells_[static_cast<std::size_t>(
+            (face * kCoverCellsPerEdge + row) * kCoverCellsPerEdge + column)];
         if (end_m > 0 && end_m < cell.end_m) cell = {end_m, actor_key, slot};
       }
     }
@@ -133,8 +133,8 @@ bool Cover::covers(const Vec3& point_W, std::uint32_t actor_key, ConvexSlot slot
   if (cells_.empty() || away.isZero()) return false;
   const CubePoint place = on_cube(away);
   const int row = cell_at(place.v), column = cell_at(place.u);
-  const Cell& cell =
-      cells_[static_cast<std::size_t>((place.face * kCellsPerEdge + row) * kCellsPerEdge + column)];
+  const Cell& cell = cells_[static_cast<std::size_t>(
+      (place.face * kCoverCellsPerEdge + row) * kCoverCellsPerEdge + column)];
   if (cell.actor_key == actor_key && cell.slot == slot) return false;
   return away.norm() > kDepthTolerance * cell.end_m;
 }

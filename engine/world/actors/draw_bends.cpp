@@ -1,24 +1,20 @@
 #include "engine/world/actors/draw_bends.h"
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/model/bent_section.h"
 #include "engine/model/piece_mesh.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
 
-// Least bending and sliding since a hinge was last drawn for which it is redrawn.
-constexpr double kRedrawAngle_rad = 0.5 * std::numbers::pi / 180;
-constexpr double kRedrawSlideShare = 2e-3;  // share of the section's reach
-
 bool has_moved(const Pose& from, const Pose& to, const Vec3& at, double reach_m) {
   const double turned = 2 * (to.rotation * from.rotation.conjugate()).vec().norm();
-  return turned > kRedrawAngle_rad || (to * at - from * at).norm() > kRedrawSlideShare * reach_m;
+  return turned > kRedrawAngle_rad || (to * at - from * at).norm() > kRedrawSlide * reach_m;
 }
 
 /// Returns the hidden flags of a convex's faces from those of an earlier convex, matched by the

@@ -8,12 +8,10 @@
 #include "engine/model/breaker.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/actors/world.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-// Growth of the strain, relative to the elongation, for which the strength of a joint is updated.
-constexpr double kStrengthUpdateShare = 0.01;
 
 /// Returns the strain of the outermost fibre of a section: elongation and shear, combined by von
 /// Mises, over the gauge length.
@@ -97,8 +95,7 @@ void update_hinges(World& world) {
     hinge.strain += strain_of(hinge.section, flowed);
     if (hinge.strain > hinge.section.elongation) {
       tear(world, joint);
-    } else if (hinge.strain - hinge.solver_strain >
-               kStrengthUpdateShare * hinge.section.elongation) {
+    } else if (hinge.strain - hinge.solver_strain > kMinStrainUpdate * hinge.section.elongation) {
       world.physics->strengthen(joint.id, hinge.strength());
       hinge.solver_strain = hinge.strain;
     }

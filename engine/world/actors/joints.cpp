@@ -6,11 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "engine/world/tuning.h"
+
 namespace sunder {
 namespace {
-
-// Distance of an anchor from a piece that still has it, relative to the piece's size.
-constexpr double kAnchorTolerance = 0.02;
 
 /// Returns the actor that contains a point, or the nearest within tolerance; null if there is none.
 const Actor* actor_at(std::span<const Actor* const> actors, const Vec3& point_R) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/model/piece_mesh.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
@@ -61,12 +62,6 @@ std::vector<MaterialIndex> materials_of(const Compound& compound) {
   return all;
 }
 
-// Minimum area of a crack through a solid of volume V, as a fraction of V^(2/3).
-constexpr double kMinCrackShare = 0.1;
-
-// Most convexes that are checked for a plate; a structure with more is assumed to have one.
-constexpr std::size_t kMaxThinChecks = 8;
-
 /// Returns true if one of a structure's convexes is a plate or shell, or is assumed to be.
 bool has_thin_convex(const Structure& structure) {
   bool found = structure.size() > kMaxThinChecks;
@@ -93,7 +88,7 @@ void set_least(const World& world, Actor& actor) {
     const Material& material = world.material(index);
     if (!material.breakable() || actor.volume_m3 < material.min_breakable_volume_m3()) continue;
     const double reach_m3 = reached_m3(material, actor.volume_m3);
-    const double crack_m2 = kMinCrackShare * std::cbrt(reach_m3 * reach_m3);
+    const double crack_m2 = kMinCrackArea * std::cbrt(reach_m3 * reach_m3);
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
     double limit_Pa = material.impact_limit_Pa(false);
     if (may_bend) limit_Pa = std::min(limit_Pa, material.impact_limit_Pa(true));

@@ -12,18 +12,10 @@
 #include "engine/world/actors/load_case.h"
 #include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/clusters.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-// Bond evaluations in a solve for stress that take about as long as one part to cut.
-constexpr std::uint64_t kBondEvaluationsPerPart = 160;
-// Contact evaluations of a probe that take about as long as one part to cut.
-constexpr std::uint64_t kContactEvaluationsPerPart = 1000;
-// Over the budget, an impact with less than this share of all kinetic energy breaks nothing: it is
-// neither probed nor deferred.
-constexpr double kMinDeferredShare = 1e-3;
-constexpr std::size_t kProbesAtOnce = 16;  // between two checks of the budget
 
 bool parts_at_bonds(const Material& material) {
   return material.breaks_by_load() && !material.yields();

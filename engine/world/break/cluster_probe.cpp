@@ -10,13 +10,12 @@
 
 #include "engine/base/froude.h"
 #include "engine/base/hash.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
 
 constexpr std::uint32_t kOutside = 0xffffffff;
-// Number of touching pairs of convexes of two bodies from which on each pair counts as one contact.
-constexpr std::size_t kMinMergedPairs = 4;
 
 /// Collects the bodies, contacts and joints of a cluster.
 class ProbeBuilder {

@@ -10,12 +10,10 @@
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/joint_graph.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-// Bound on the growth of a contact's impulse and speed after other contacts were solved.
-constexpr double kMaxGain = 2;
 
 /// All speculative contacts between two bodies, from which a cluster grows.
 struct Seed {
@@ -32,8 +30,8 @@ struct Seed {
 
 /// Returns true if the impact of a seed, direct or passed on, may break an actor.
 bool may_break(const World& world, const Actor* actor, const Seed& seed) {
-  return may_break(world, actor, seed.energy_J, kMaxGain * seed.impulse_Ns,
-                   kMaxGain * seed.speed_m_s);
+  return may_break(world, actor, seed.energy_J, kMaxImpulseGain * seed.impulse_Ns,
+                   kMaxImpulseGain * seed.speed_m_s);
 }
 
 /// Returns the most moving bodies of a cluster, the nearest to the seed first; `direct`: a body of

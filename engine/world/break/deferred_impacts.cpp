@@ -7,13 +7,10 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/world/tuning.h"
+
 namespace sunder {
 namespace {
-
-// Closing speed above which a body that would hit a paused one is paused too, as it would hit a
-// paused body like a wall.
-constexpr double kPauseSpeed_m_s = 0.5;
-constexpr int kReleasedPerRound = 3;  // deferred clusters that are probed again in one round
 
 void pause_all(World& world, std::span<const DeferredBody> deferred) {
   std::vector<BodyId> bodies;
@@ -77,7 +74,7 @@ void DeferredImpacts::begin_step(const World& world) {
 
 void DeferredImpacts::release_first() {
   std::size_t end = 0;
-  for (int clusters = 0; clusters < kReleasedPerRound && end < queue_.size(); ++clusters) {
+  for (int clusters = 0; clusters < kReleasedClustersPerRound && end < queue_.size(); ++clusters) {
     const std::uint64_t cluster = queue_[end].cluster;
     while (end < queue_.size() && queue_[end].cluster == cluster) ++end;
   }

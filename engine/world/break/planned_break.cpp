@@ -12,32 +12,10 @@
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/break/striker.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-// An impact with less than this share of the energy that the last plan without a break needed is
-// not planned.
-constexpr double kReplanEnergyShare = 0.7;
-// An impact with less than this share of the energy that would have bent the solid to its limit at
-// the last impact, perhaps at another point, is not planned by stress.
-constexpr double kRetryEnergyShare = 0.1;
-// An impact with less than this share of the impulse that would have is not planned by stress.
-constexpr double kRetryImpulseShare = 0.3;
-// Most evaluations of each bond in a plan by stress; an impact that is undecided after them is
-// planned again only with more energy. Materials without a pattern can only break by stress, and
-// slender frames need more evaluations.
-constexpr std::uint64_t kMaxImpactEvaluations = 100, kMaxFrameEvaluations = 1200;
-// Least share of material around a section for a plug (confinement()).
-constexpr double kMinConfinement = 0.45;
-// Greatest thickness that a striker perforates, in widths of its section.
-constexpr double kMaxThicknessWidths = 8;
-// Bound on the highest stress of a struck solid, relative to a bar in its first mode at the same
-// mean speed: covers eccentric impacts, other shapes and the steady load.
-constexpr double kStressBoundFactor = 4;
-constexpr double kGroundPa_s_m = 8.5e6;  // impedance of the ground: concrete
-// Largest share of an impact's energy that a break by stress takes, whatever its cracks need.
-constexpr double kMaxStressBreakShare = 0.9;
 
 /// Returns the fracture energy of the new crack surface; each crack has two sides.
 double crack_energy_J(const World& world, const BreakEdit& edit) {
@@ -155,7 +133,7 @@ void add_striker(const World& world, const PlannedBreak& planned, const Actor& a
   hit.speed_m_s = planned.speed_m_s;
   hit.striker_kg = planned.striker_kg();
   hit.held = actor.is_static;
-  const double most_m = kMaxThicknessWidths * reach_of(hit);
+  const double most_m = kMaxPerforatedReaches * reach_of(hit);
   hit.thickness_m =
       thickness_behind(actor.structure, hit.section_R, hit.point_R, hit.direction_R, most_m);
   if (!(hit.thickness_m > 0)) {  // the mean of several contacts may lie in a hole
@@ -207,7 +185,7 @@ double share_of_speed(const World& world, const Convex& convex, const Actor* str
   if (is_thin(convex)) return 1;
   const double striker_Pa_s_m = striker && !striker->materials.empty()
                                     ? world.material(striker->materials[0]).impedance_Pa_s_m()
-                                    : kGroundPa_s_m;
+                                    : kGroundImpedance_Pa_s_m;
   return striker_Pa_s_m / (striker_Pa_s_m + world.material(convex.material).impedance_Pa_s_m());
 }
 
@@ -248,13 +226,12 @@ void prepare_command(const World& world, const Breaker& breaker, std::uint64_t e
 }
 
 std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
-  constexpr std::size_t kPartsOfConvex = 8;
   const BreakCommand& command = planned.command;
   const Structure& structure = world.actors.find(planned.impact.key)->structure;
   const std::size_t reached = structure.within(command.X_RP.position, command.radius_m).size();
   const auto cells = static_cast<std::size_t>(command.plug ? command.plug->cell_count()
                                                            : command.pattern.cell_count());
-  return static_cast<std::uint32_t>(cells + kPartsOfConvex * reached);
+  return static_cast<std::uint32_t>(cells + kPartsPerConvex * reached);
 }
 
 void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
@@ -286,7 +263,7 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
         const std::uint64_t bonds = actor.structure.bond_count() + 1;
         const std::uint64_t most_work = std::min<std::uint64_t>(
             world.scene.limits.impact_evaluations,
-            (has_pattern ? kMaxImpactEvaluations : kMaxFrameEvaluations) * bonds);
+            (has_pattern ? kPatternEvaluationsPerBond : kStressOnlyEvaluationsPerBond) * bonds);
         load.impulsive_load = {planned.impulses, planned.transmitted_J,
                                planned.command.X_RP.position,
                                planned.by_pattern ? planned.command.radius_m : 0, most_work};
@@ -313,8 +290,8 @@ void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) 
   const double energy_J = planned.impact.energy_J;
   if (planned.by_pattern && !planned.command.plug)
     actor.least_J =
-        std::max(actor.least_J,
-                 planned.edit.changed ? kReplanEnergyShare * planned.needed_J : 1.4 * energy_J);
+        std::max(actor.least_J, planned.edit.changed ? kReplanEnergyShare * planned.needed_J
+                                                     : kReplanEnergyGrowth * energy_J);
   if (!planned.by_stress) return;
   if (planned.stressed.gave_up) ++limits[Limit::kImpactEvaluations];
   if (planned.stressed.undecided) {

@@ -9,20 +9,16 @@
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/prism.h"
 #include "engine/world/actors/make_actor.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
 
-constexpr int kRoundCorners = 8;  // of the section of a sphere
-constexpr std::size_t kMostCorners = 8;
-// Scale about its centre of a section to the points around it that are tested for material.
-constexpr double kRingScale = 1.5;
-
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Removes corners, those that cut off the least area first, until kMostCorners are left.
+/// Removes corners, those that cut off the least area first, until kMaxSectionCorners are left.
 void simplify(std::vector<Vec2>& hull) {
-  while (hull.size() > kMostCorners) {
+  while (hull.size() > kMaxSectionCorners) {
     std::size_t least = 0;
     double least_m2 = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -80,13 +76,14 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
   const Pose X_WB = world.physics->state(actor.body).X_WB;
   std::vector<Vec2> hull;
   if (actor.structure.empty()) {
-    const SinCos corner = sin_cos(std::numbers::pi / kRoundCorners);
+    const SinCos corner = sin_cos(std::numbers::pi / kRoundSectionCorners);
     // The polygon has the area of the circle.
-    const double radius_m = ball_radius_m(actor.volume_m3) *
-                            std::sqrt(std::numbers::pi / (kRoundCorners * corner.sin * corner.cos));
+    const double radius_m =
+        ball_radius_m(actor.volume_m3) *
+        std::sqrt(std::numbers::pi / (kRoundSectionCorners * corner.sin * corner.cos));
     const Vec3 center_W = X_WB.position - point_W;
-    for (int i = 0; i < kRoundCorners; ++i) {
-      const SinCos angle = sin_cos(2 * std::numbers::pi * i / kRoundCorners);
+    for (int i = 0; i < kRoundSectionCorners; ++i) {
+      const SinCos angle = sin_cos(2 * std::numbers::pi * i / kRoundSectionCorners);
       hull.push_back(Vec2(u.dot(center_W), v.dot(center_W)) +
                      radius_m * Vec2(angle.cos, angle.sin));
     }
@@ -108,7 +105,7 @@ std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Ve
     area_m2 += 0.5 * cross(hull[i], hull[(i + 1) % hull.size()]);
     for (const Vec2& other : hull) widest_m = std::max(widest_m, (hull[i] - other).norm());
   }
-  if (hull.size() < 3 || !(area_m2 > 1e-2 * widest_m * widest_m)) return {};
+  if (hull.size() < 3 || !(area_m2 > kMinSectionArea * widest_m * widest_m)) return {};
   std::vector<Vec3> section_W;
   for (const Vec2& corner : hull) section_W.push_back(point_W + corner.x() * u + corner.y() * v);
   return section_W;
@@ -131,7 +128,7 @@ double confinement(const Structure& structure, const std::vector<Vec3>& section_
   Vec3 middle_R = Vec3::Zero();
   for (const Vec3& corner : section_R) middle_R += corner / static_cast<double>(section_R.size());
   const auto is_filled = [&](const Vec3& corner) {
-    const Vec3 point_R = middle_R + kRingScale * (corner - middle_R) + depth_m * direction_R;
+    const Vec3 point_R = middle_R + kConfinementScale * (corner - middle_R) + depth_m * direction_R;
     return std::ranges::any_of(structure.within(point_R, 0), [&](ConvexSlot slot) {
       return distance_to(*structure.convex(slot), point_R) <= 0;
     });

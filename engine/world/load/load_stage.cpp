@@ -12,23 +12,11 @@
 #include "engine/world/actors/load_case.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/load/rejoin.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
 
-constexpr double kAveragingTime_s = 0.1;  // time constant of the forces' mean
-// Change of the load on a convex, relative to the old load with self-weight, from which on the
-// stress is solved again.
-constexpr double kChangeShare = 0.1;
-// Load relative to the actor's weight below which a change is negligible.
-constexpr double kNegligibleShare = 1e-5;
-// Least ρ ω² r² at which spin is evaluated, as a share of the weakest limit. The largest stress is
-// half of ρ ω² r² in a rod, all of it in a ring, and more only where spin bends hollow or curved
-// solids.
-constexpr double kNegligibleSpinShare = 0.03;
-// Evaluations of each bond reserved for an actor; what it leaves goes to others.
-constexpr std::uint64_t kReservedEvaluations = 30;
-constexpr std::int64_t kSavedFrames = 2;      // work of so many frames may be saved up
 constexpr std::size_t kLargeConvexes = 1000;  // convexes of an actor that is solved by all threads
 constexpr std::size_t kActorsPerChunk = 256;  // visited by one thread
 constexpr ConvexSlot kPastLastSlot;           // none(), greater than any slot
@@ -49,8 +37,8 @@ struct ActorForce {
 std::vector<AppliedForce> averaged(const World& world, const Actor& actor,
                                    std::span<const ActorForce> now) {
   if (now.empty() && actor.stress.mean_forces.empty()) return {};
-  const double dt = world.clock.dt_s, share = dt / (kAveragingTime_s + dt);
-  const double negligible = kNegligibleShare * weight_N(world, actor.weight.mass_kg);
+  const double dt = world.clock.dt_s, share = dt / (kForceAveragingTime_s + dt);
+  const double negligible = kNegligibleLoad * weight_N(world, actor.weight.mass_kg);
   const double size_m = std::cbrt(actor.volume_m3);
   std::vector<AppliedForce> mean;
   auto old = actor.stress.mean_forces.begin();
@@ -68,8 +56,8 @@ std::vector<AppliedForce> averaged(const World& world, const Actor& actor,
       force.force_N += share * it->force.force_N;
       force.torque_Nm += share * it->force.torque_Nm;
     }
-    if (force.force_N.norm() > 0.1 * negligible ||
-        force.torque_Nm.norm() > 0.1 * negligible * size_m)
+    if (force.force_N.norm() > kNegligibleMeanForce * negligible ||
+        force.torque_Nm.norm() > kNegligibleMeanForce * negligible * size_m)
       mean.push_back(force);
   }
   return mean;
@@ -77,7 +65,7 @@ std::vector<AppliedForce> averaged(const World& world, const Actor& actor,
 
 /// Returns true if the mean forces differ from those of the last stress solve.
 bool load_changed(const World& world, const Actor& actor) {
-  const double negligible = kNegligibleShare * weight_N(world, actor.weight.mass_kg);
+  const double negligible = kNegligibleLoad * weight_N(world, actor.weight.mass_kg);
   const std::vector<AppliedForce>&x = actor.stress.evaluated_forces, &y = actor.stress.mean_forces;
   for (std::size_t i = 0, j = 0; i < x.size() || j < y.size();) {
     const ConvexSlot convex = std::min(i < x.size() ? x[i].convex : kPastLastSlot,
@@ -89,7 +77,7 @@ bool load_changed(const World& world, const Actor& actor) {
     const double density = world.material(body.material).density_kg_m3;
     const double self_weight = weight_N(world, density * body.solid.volume_m3);
     const double allowed =
-        std::max(negligible, kChangeShare * (self_weight + before.force_N.norm()));
+        std::max(negligible, kMinLoadChange * (self_weight + before.force_N.norm()));
     if ((after.force_N - before.force_N).norm() > allowed) return true;
     const double arm = body.box.extent().maxCoeff();
     if ((after.torque_Nm - before.torque_Nm).norm() > allowed * arm) return true;
@@ -100,8 +88,7 @@ bool load_changed(const World& world, const Actor& actor) {
 /// Returns the spin of an actor, or 0 if it is negligible.
 Vec3 relevant_spin(const Actor& actor, const BodyState& state) {
   const Vec3& spin_W = state.angular_velocity_W;
-  if (!(spin_W.squaredNorm() > kNegligibleSpinShare * actor.stress.burst_omega2_s2))
-    return Vec3::Zero();
+  if (!(spin_W.squaredNorm() > kNegligibleSpin * actor.stress.burst_omega2_s2)) return Vec3::Zero();
   return state.X_WB.rotation.conjugate() * spin_W;
 }
 
@@ -110,7 +97,7 @@ Vec3 relevant_spin(const Actor& actor, const BodyState& state) {
 bool spin_changed(const StressState& stress) {
   const Vec3 &before = stress.evaluated_spin_R, &after = stress.spin_R;
   const double allowed =
-      std::max(kChangeShare * before.squaredNorm(), kNegligibleSpinShare * stress.burst_omega2_s2);
+      std::max(kMinLoadChange * before.squaredNorm(), kNegligibleSpin * stress.burst_omega2_s2);
   return (after - before).norm() * (after + before).norm() > allowed;
 }
 
@@ -281,7 +268,7 @@ void LoadStage::prepare(World& world, const Breaker& breaker) const {
 }
 
 void LoadStage::begin_frame() {
-  work_left_ = std::min(kSavedFrames * work_a_frame_, work_left_ + work_a_frame_);
+  work_left_ = std::min(kMaxSavedFrames * work_a_frame_, work_left_ + work_a_frame_);
 }
 
 void LoadStage::run(World& world, const Breaker& breaker) {
@@ -296,7 +283,7 @@ void LoadStage::run(World& world, const Breaker& breaker) {
     auto left = static_cast<std::uint64_t>(work_left_);
     for (; next < keys.size() && left > 0; ++next) {
       const std::uint64_t bonds = world.actors.find(keys[next])->structure.bond_count();
-      const std::uint64_t reserved = std::min(left, kReservedEvaluations * (bonds + 1));
+      const std::uint64_t reserved = std::min(left, kReservedEvaluationsPerBond * (bonds + 1));
       batch.push_back({keys[next], reserved, {}, 0});
       left -= reserved;
     }

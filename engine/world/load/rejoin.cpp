@@ -8,20 +8,17 @@
 #include <vector>
 
 #include "engine/world/actors/merge.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-constexpr double kRejoinDelay_s = 0.25;              // without yielding, for the first merge
-constexpr std::uint32_t kMaxDoublings = 12;          // of the delay
-constexpr std::uint64_t kEvaluationsPerBond = 3000;  // for the stress solve of the merged actor
 
 using Live = Joints::Live;
 
 /// Returns the step from which on a hinge may be removed; none if that is later than now.
 std::optional<std::uint64_t> rejoin_step(const World& world, const Live& joint) {
   const Actor &a = *world.actors.find(joint.a.key), &b = *world.actors.find(joint.b.key);
-  const std::uint32_t times = std::min(kMaxDoublings, std::max(a.rejoined, b.rejoined));
+  const std::uint32_t times = std::min(kMaxRejoinDoublings, std::max(a.rejoined, b.rejoined));
   const auto wait = static_cast<std::uint64_t>(std::ceil(kRejoinDelay_s / world.clock.dt_s) *
                                                std::ldexp(1.0, static_cast<int>(times)));
   const std::uint64_t ready = joint.hinge->flowed_step + wait;
@@ -81,7 +78,7 @@ class MergedLoadCase {
     const Quat& rotation_WA = world.physics->state(a.body).X_WB.rotation;
     load_.gravity_R = rotation_WA.conjugate() * world.scene.gravity_W;
     load_.spin_R = a.stress.spin_R;
-    load_.most_work = kEvaluationsPerBond * (structure_.bond_count() + 1);
+    load_.most_work = kRejoinEvaluationsPerBond * (structure_.bond_count() + 1);
     std::ranges::sort(load_.hinged);
   }
 
