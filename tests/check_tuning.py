@@ -27,7 +27,7 @@ ALLOWED = {
         "check/case_file.cpp": {"kMostSlices"},
         "cut/cutter.cpp": {"kVolumeError"},
         "cut/ghosts.cpp": {"kMinOverlapThickness"},
-        "cut/weld.cpp": {"kRelativeTolerance"},
+        "cut/weld.cpp": {"kRelativeTolerance", "kVolumeRounding", "kDistanceRounding"},
         "pattern/block_patterns.cpp": {"kMostExtent"},  # inside the box of a pattern
         "pattern/file_pattern.cpp": {"kSamePlane", "kSameVolume"},
         "pattern/pattern.h": {"kHalfExtent"},
