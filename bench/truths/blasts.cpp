@@ -60,7 +60,7 @@ Truths blast_truths() {
             jarrett, 0.27, damage_distance, {0.27, 0.27, 0.27, 0.27}),
       truth(45, "house of brick, 1 t of TNT at A, 25 m: share that stands", "", jarrett, 0.5,
             [](const Preset& p) { return 1 - share_fallen(radius_m(kA), p); },
-            {0.93, 0.88, 0.93, 0.5}),
+            {0.93, 0.5, 0.5, 0.5}),
       truth(45, "house of brick, 1 t of TNT at Ca, 188 m: share that falls", "", jarrett, 0.01,
             [](const Preset& p) { return share_fallen(radius_m(kCa), p); },
             {0.01, 0.01, 0.01, 0.01}),
