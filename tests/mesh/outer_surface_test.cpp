@@ -71,6 +71,20 @@ TEST(OuterSurface, OfBoxesThatTouchInAnEdgeHasTheEdgeOncePerBox) {
   EXPECT_EQ(places.size(), 16u) << "each box has its own position of the vertex";
 }
 
+TEST(OuterSurface, HasOnePointWhereEdgesCrossAtAVertexOnBoth) {
+  // Left of the cut an edge along z passes (1, 1, 1), right of it one along y, and two boxes have a
+  // vertex there.
+  const PolygonMesh boxes[] = {box_at_cut({0, 0, 0}, {1, 1, 2}), box_at_cut({0, 1, 0}, {1, 2, 2}),
+                               box_at_cut({1, 0, 0}, {2, 2, 1}), box_at_cut({1, 0, 1}, {2, 1, 2}),
+                               box_at_cut({1, 1, 1}, {2, 2, 2})};
+  std::vector<const PolygonMesh*> all;
+  for (const PolygonMesh& box : boxes) all.push_back(&box);
+  const std::optional<OuterSurface> outer = outer_surface(all);
+  ASSERT_TRUE(outer);
+  EXPECT_EQ(open_edges(outer->mesh), 0u);
+  EXPECT_NEAR(mass_properties(outer->mesh).volume_m3, 8, 1e-12);
+}
+
 TEST(OuterSurface, OfAnOpenMeshIsEmpty) {
   PolygonMesh a = box_at_cut({0, 0, 0}, {1, 1, 1});
   a.contours.pop_back();

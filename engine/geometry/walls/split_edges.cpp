@@ -130,16 +130,25 @@ class EdgeSplitter {
     const double e0 = across_g.dot(at(e[0]) - at(g[0])), e1 = across_g.dot(at(e[1]) - at(g[0]));
     if (std::min(std::abs(e0), std::abs(e1)) <= tolerance_m_ || (e0 > 0) == (e1 > 0)) return;
     const Vec3 place = at(e[0]) + e0 / (e0 - e1) * along_e;
-    const std::uint32_t point = crossing_at(place);
+    const std::uint32_t point = crossing_at(place, e, g);
     splits_[e].insert(point);
     splits_[g].insert(point);
   }
 
-  /// Returns the known crossing point within the tolerance, or a new one.
-  std::uint32_t crossing_at(const Vec3& place) {
-    for (const std::uint32_t known : crossings_) {
-      if ((at(known) - place).norm() <= tolerance_m_) return known;
+  /// Returns the point within the tolerance that splits either edge or is a known crossing, or a
+  /// new point.
+  std::uint32_t crossing_at(const Vec3& place, const PointPair& e, const PointPair& g) {
+    const auto is_here = [&](std::uint32_t known) {
+      return (at(known) - place).norm() <= tolerance_m_;
+    };
+    for (const PointPair& edge : {e, g}) {
+      const auto points = splits_.find(edge);
+      if (points == splits_.end()) continue;
+      const auto known = std::ranges::find_if(points->second, is_here);
+      if (known != points->second.end()) return *known;
     }
+    const auto known = std::ranges::find_if(crossings_, is_here);
+    if (known != crossings_.end()) return *known;
     crossings_.push_back(static_cast<std::uint32_t>(surface_.points.size()));
     surface_.points.push_back(place);
     return crossings_.back();
