@@ -81,14 +81,13 @@ Scene scene_at(const Preset& preset, const std::string& text, double duration_s,
   return scenes::parse_scene(head + text, "extreme.toml", {preset.name, std::move(set)});
 }
 
-double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figure) {
-  constexpr int kSeeds = 8;
+double mean_of_seeds(Scene scene, const std::function<double(const Run&)>& figure, int seeds) {
   double sum = 0;
-  for (int seed = 1; seed <= kSeeds; ++seed) {
+  for (int seed = 1; seed <= seeds; ++seed) {
     scene.seed = static_cast<std::uint64_t>(seed);
     sum += figure(run(scene));
   }
-  return sum / kSeeds;
+  return sum / seeds;
 }
 
 Truth extreme(int row, const char* what, const char* unit, const char* source, double mark,

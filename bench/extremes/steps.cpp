@@ -105,9 +105,23 @@ double exit_speed_off(const Preset& preset) {
   const auto speed = [&](double dt_s) {
     Scene scene = scene_at(preset, kWall, 0.5);
     scene.accuracy.dt_s = dt_s;
-    return mean_of_seeds(std::move(scene), [](const Run& r) { return r.speed_m_s(1); });
+    constexpr int kShots = 40;  // their speeds scatter by a third
+    return mean_of_seeds(
+        std::move(scene), [](const Run& r) { return r.speed_m_s(1); }, kShots);
   };
   return speed(1.0 / 10020) / speed(preset.dt_s) - 1;
+}
+
+/// Mean over seeds of the overlap after 2 s, at the worst of the long steps.
+double overlap_left_mm(const Preset& preset) {
+  double worst_mm = 0;
+  for (const int rate_Hz : kLowRates_Hz) {
+    Scene scene = scene_at(preset, kWall, 2);
+    scene.accuracy.dt_s = 1.0 / rate_Hz;
+    const auto left_mm = [](const Run& r) { return 1e3 * r.final_penetration_m(); };
+    worst_mm = std::max(worst_mm, mean_of_seeds(std::move(scene), left_mm));
+  }
+  return worst_mm;
 }
 
 }  // namespace
@@ -125,7 +139,7 @@ Truths step_extremes() {
               worst_of(kBounces, 2, kHighRates_Hz, &Run::energy_gained),
               {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(3, "ball through a wall, dt 1/10,020: exit speed off that of the preset's dt", "",
-              "the same", 0.2, fastest_short, Measure(exit_speed_off), {0.2, 0.2, 0.24, 0.2}),
+              "the same", 0.2, fastest_short, Measure(exit_speed_off), {0.2, 0.2, 0.2, 0.2}),
       extreme(4, "stack of 10, dt 1/30 and 1/10, 5 s: moves", "mm", "rest", 2,
               at_longest_step(kStack, 5, kLowRates_Hz), worst_of(kStack, 5, kLowRates_Hz, moves),
               {2, 8800, 0.2, 1500}),
@@ -140,11 +154,9 @@ Truths step_extremes() {
               1e-3, at_longest_step(kWall, 2, kLowRates_Hz),
               worst_of(kWall, 2, kLowRates_Hz, &Run::energy_gained, weightless),
               {0.0001, 0.0001, 0.0001, 0.0001}),
-      extreme(4, "ball through a wall, dt 1/30 and 1/10: overlap left", "mm", "rigid", 10,
-              at_longest_step(kWall, 2, kLowRates_Hz),
-              worst_of(kWall, 2, kLowRates_Hz,
-                       [](const Run& r) { return 1e3 * r.final_penetration_m(); }),
-              {40, 95, 40, 47}),
+      extreme(4, "ball through a wall, dt 1/30 and 1/10: overlap left, mean of seeds", "mm",
+              "rigid", 10, at_longest_step(kWall, 2, kLowRates_Hz), Measure(overlap_left_mm),
+              {52, 130, 52, 120}),
   };
 }
 
