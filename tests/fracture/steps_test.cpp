@@ -159,6 +159,9 @@ TEST(Weld, makes_exactly_the_cell_of_parts_that_fill_it) {
     EXPECT_EQ(whole->polyhedron.corners, cell.corners);
     ++welded;
     parts.pop_back();
+    const ConvexPtr rest = weld(aligned, aligned.cells[c], parts, {});
+    ASSERT_TRUE(rest);
+    EXPECT_NEAR(rest->solid.volume_m3, parts[0]->solid.volume_m3, 1e-12) << "not the cell";
     parts.push_back(make_convex(cell, MaterialIndex(1u)));
     // The last part has another material.
     EXPECT_FALSE(weld(aligned, aligned.cells[c], parts, {}));
