@@ -77,17 +77,18 @@ SceneAt at_longest_step(const char* text, double duration_s,
   };
 }
 
-/// Measures the worst result over several steps. Scenes made in code may have steps of any length.
+/// Measures the worst result over several steps, each the mean over seeds. Scenes made in code may
+/// have steps of any length.
 template <std::size_t kCount>
 Measure worst_of(const char* text, double duration_s, const std::array<int, kCount>& rates_Hz,
                  const std::function<double(const Run&)>& figure,
-                 const std::vector<std::string>& set = {}) {
+                 const std::vector<std::string>& set = {}, int seeds = 1) {
   return [=](const Preset& preset) {
     double worst = 0;
     for (const int rate_Hz : rates_Hz) {
       Scene scene = scene_at(preset, text, duration_s, set);
       scene.accuracy.dt_s = 1.0 / rate_Hz;
-      const double value = figure(run(std::move(scene)));
+      const double value = mean_of_seeds(std::move(scene), figure, seeds);
       if (!(value <= worst)) worst = value;
     }
     return worst;
@@ -112,22 +113,11 @@ double exit_speed_off(const Preset& preset) {
   return speed(1.0 / 10020) / speed(preset.dt_s) - 1;
 }
 
-/// Mean over seeds of the overlap after 2 s, at the worst of the long steps.
-double overlap_left_mm(const Preset& preset) {
-  double worst_mm = 0;
-  for (const int rate_Hz : kLowRates_Hz) {
-    Scene scene = scene_at(preset, kWall, 2);
-    scene.accuracy.dt_s = 1.0 / rate_Hz;
-    const auto left_mm = [](const Run& r) { return 1e3 * r.final_penetration_m(); };
-    worst_mm = std::max(worst_mm, mean_of_seeds(std::move(scene), left_mm));
-  }
-  return worst_mm;
-}
-
 }  // namespace
 
 Truths step_extremes() {
   const auto moves = [](const Run& r) { return 1e3 * r.largest_displacement_m(); };
+  const auto left_mm = [](const Run& r) { return 1e3 * r.final_penetration_m(); };
   const std::vector<std::string> weightless = {"scene.gravity=[0, 0, 0]"};
   const auto fastest_short = at_longest_step(kWall, 0.5, std::array{10020});
   return {
@@ -139,7 +129,7 @@ Truths step_extremes() {
               worst_of(kBounces, 2, kHighRates_Hz, &Run::energy_gained),
               {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(3, "ball through a wall, dt 1/10,020: exit speed off that of the preset's dt", "",
-              "the same", 0.2, fastest_short, Measure(exit_speed_off), {0.2, 0.2, 0.2, 0.2}),
+              "the same", 0.2, fastest_short, Measure(exit_speed_off), {0.2, 0.2, 0.2, 0.19}),
       extreme(4, "stack of 10, dt 1/30 and 1/10, 5 s: moves", "mm", "rest", 2,
               at_longest_step(kStack, 5, kLowRates_Hz), worst_of(kStack, 5, kLowRates_Hz, moves),
               {2, 8800, 0.2, 1500}),
@@ -155,8 +145,8 @@ Truths step_extremes() {
               worst_of(kWall, 2, kLowRates_Hz, &Run::energy_gained, weightless),
               {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(4, "ball through a wall, dt 1/30 and 1/10: overlap left, mean of seeds", "mm",
-              "rigid", 10, at_longest_step(kWall, 2, kLowRates_Hz), Measure(overlap_left_mm),
-              {52, 130, 52, 120}),
+              "rigid", 10, at_longest_step(kWall, 2, kLowRates_Hz),
+              worst_of(kWall, 2, kLowRates_Hz, left_mm, {}, 8), {52, 130, 52, 120}),
   };
 }
 

@@ -69,10 +69,11 @@ void join_faces(const ConvexPolyhedron& a, std::uint32_t first_a, const ConvexPo
                 std::uint32_t first_b, double tolerance, Planes& planes) {
   for (std::uint32_t f = 0; f < a.faces.size(); ++f) {
     const Plane& plane = a.faces[f].plane;
+    const Plane opposite = plane.flipped();
     // They can touch in face f only if all of b is beyond its plane.
     const bool may_touch = plane.distance(b.vertices[0]) >= -tolerance;
     for (std::uint32_t g = 0; g < b.faces.size(); ++g) {
-      if (may_touch && lies_in(plane.flipped(), b, g, tolerance))
+      if (may_touch && lies_in(opposite, b, g, tolerance))
         planes.join_opposite(first_a + f, first_b + g);
       if (lies_in(plane, b, g, tolerance)) planes.join_level(first_a + f, first_b + g);
     }

@@ -10,8 +10,8 @@ namespace sunder::fracture {
 
 /// Returns the one convex that replaces the parts of solids in a cell, whose overlaps are `ghosts`:
 /// the cell, or what the outer faces of the parts leave of it. Returns null unless the parts are
-/// internal convexes of one material whose union is convex, up to rounding, with flat faces: a face
-/// keeps its plane id, and its kind.
+/// internal convexes of one material whose union is convex, up to rounding. A face keeps its plane
+/// id, its kind and its shading.
 ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
                std::span<const ConvexPtr> parts, std::span<const Ghost> ghosts);
 
