@@ -109,6 +109,26 @@ std::string obsolete_warning(const Scene& scene) {
          "smallest_piece_m3 determine what breaks";
 }
 
+/// Leaves out debris below `factor` times its smallest radius, of particles whose radii r follow
+/// N(> r) ~ r^-2.
+void leave_out_small_debris(double factor, DebrisEmission& emission) {
+  const double smallest_m = factor * emission.debris_smallest_m;
+  const double kept = smallest_m < emission.debris_largest_m ? 1 / (factor * factor) : 0;
+  const double debris = kept * emission.debris_ratio, dust = 1 - emission.debris_ratio;
+  emission.particles_per_m2 *= debris + dust;
+  emission.debris_ratio = debris + dust > 0 ? debris / (debris + dust) : 0;
+  emission.debris_smallest_m = std::min(smallest_m, emission.debris_largest_m);
+}
+
+/// Applies the factors on sizes of pieces and of debris to the materials.
+void coarsen(Scene& scene) {
+  const double piece = scene.limits.piece_size_factor, chip = scene.limits.chip_size_factor;
+  for (Material& material : scene.materials) {
+    material.smallest_piece_m3 *= piece * piece * piece;
+    if (chip > 1) leave_out_small_debris(chip, material.crumbling);
+  }
+}
+
 std::vector<std::string> warnings_of(const Scene& scene) {
   std::vector<std::string> warnings = chain_warnings(scene, kMaxSubsteps);
   const std::string accuracy = accuracy_warning(scene, kMaxSubsteps);
@@ -130,6 +150,7 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOption
                      "; expected a number of threads, or 0 to leave it unchanged");
   if (options.threads > 0) set_threads(options.threads);
   check_scene(scene);
+  coarsen(scene);
   const std::string name = scene.name.empty() ? "the scene" : scene.name;
   if (scene.planar) check_planar(scene, name);
   if (options.warn) {
@@ -141,6 +162,7 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOption
   auto simulation = std::make_unique<Simulation>(std::move(scene), std::move(physics),
                                                  std::move(breaker), std::move(particles));
   if (options.inspect) simulation->inspect();
+  if (options.count_loops) simulation->count_loops();
   return simulation;
 }
 

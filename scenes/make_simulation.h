@@ -17,11 +17,13 @@ struct SimulationOptions {
       0;  ///< Threads of the process from now on; 0: unchanged, initially one a processor.
   /// Folder for case files of breaks whose parts do not sum to the volume before, for
   /// `sunder fracture`; empty: none are written.
-  std::filesystem::path cases_folder;
+  std::filesystem::path cases_folder = {};
   /// Called with each warning to the user, a sentence, now and at the end of the run; may be empty.
-  std::function<void(const std::string& warning)> warn;
+  std::function<void(const std::string& warning)> warn = {};
   /// True if frames have an Inspection, for debug views. This takes time; the run is unchanged.
   bool inspect = false;
+  /// True if FrameReport::stage_loops is measured, on one thread; the run is unchanged.
+  bool count_loops = false;
 };
 
 /// Returns a source of frames: frame 0 is the scene as given, then one every 1/60 s until the

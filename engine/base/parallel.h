@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "engine/base/loop_times.h"
 #include "engine/base/trace.h"
 
 namespace sunder {
@@ -46,8 +47,14 @@ template <class Work>
 void for_chunks(std::size_t n, std::size_t chunk_size, const Work& work) {
   const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
   auto run = [&](std::size_t c) { work(c * chunk_size, std::min(n, (c + 1) * chunk_size), c); };
-  if (chunks <= 1 || !can_run_parallel()) {
-    for (std::size_t c = 0; c < chunks; ++c) run(c);
+  if (chunks <= 1) {
+    if (chunks == 1) run(0);
+    return;
+  }
+  detail::LoopTimer timer;
+  if (timer.counts() || !can_run_parallel()) {
+    for (std::size_t c = 0; c < chunks; ++c) timer.run_chunk([&] { run(c); });
+    timer.end_loop();
     return;
   }
   std::atomic<std::size_t> next{0};

@@ -1,6 +1,7 @@
 #include "engine/io/statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -117,6 +118,18 @@ Counts peak_of(const std::vector<FrameReport>& reports) {
   return peak;
 }
 
+/// Returns the mean time of a frame in a stage with more threads.
+Json loops_json(double stage_ms, const LoopTimes& loops, double frames) {
+  const double serial_ms = stage_ms - loops.work_ms;
+  Json json{{"work_ms", stage_ms / frames}, {"serial_ms", serial_ms / frames}};
+  for (std::size_t i = 0; i < kLoopThreads.size(); ++i) {
+    json["threads_ms"][std::to_string(kLoopThreads[i])] =
+        (serial_ms + loops.threads_ms[i]) / frames;
+  }
+  json["span_ms"] = (serial_ms + loops.span_ms) / frames;
+  return json;
+}
+
 /// Returns count, time, and time per item of work, by stage and name.
 Json work_json(std::span<const WorkItem> items) {
   Json json = Json::object();
@@ -125,8 +138,30 @@ Json work_json(std::span<const WorkItem> items) {
     entry["count"] = item.count;
     if (item.ms <= 0) continue;
     entry["ms"] = item.ms;
+    if (item.loops.work_ms > 0) entry["work_and_span"] = loops_json(item.ms, item.loops, 1);
     if (item.count > 0) entry["ns_each"] = 1e6 * item.ms / static_cast<double>(item.count);
   }
+  return json;
+}
+
+/// Returns work and span of each stage and of the frame; null if loops were not counted.
+Json work_and_span_json(std::span<const FrameReport> reports) {
+  std::array<double, kStages> stage_ms = {};
+  std::array<LoopTimes, kStages> loops;
+  double all_ms = 0;
+  LoopTimes all;
+  for (const FrameReport& report : reports) {
+    for (std::size_t s = 0; s < kStages; ++s) {
+      stage_ms[s] += report.stage_ms[s], all_ms += report.stage_ms[s];
+      loops[s] += report.stage_loops[s], all += report.stage_loops[s];
+    }
+  }
+  if (all.work_ms == 0) return nullptr;
+  Json json;
+  const auto frames = static_cast<double>(reports.size());
+  for (std::size_t s = 0; s < kStages; ++s)
+    json[kStageNames[s]] = loops_json(stage_ms[s], loops[s], frames);
+  json["frame"] = loops_json(all_ms, all, frames);
   return json;
 }
 
@@ -273,6 +308,8 @@ std::string Statistics::json(const std::string& state_hash, bool per_frame) cons
     for (const WorkItem& item : report.work) work.add(item);
   }
   json["work"] = work_json(work.items());
+  if (Json loops = work_and_span_json(s.reports); !loops.is_null())
+    json["work_and_span"] = std::move(loops);
   Json& frame = json["frame"];
   add_times(frame, "", frame_ms);
   add_times(frame, "cpu_", s.frame_ms(&FrameReport::stage_cpu_ms));

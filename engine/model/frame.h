@@ -2,6 +2,7 @@
 // (docs/architecture.md, "Modules"). The section "A step" there describes how a frame is made.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/loop_times.h"
 #include "engine/base/types.h"
 #include "engine/model/energy.h"
 #include "engine/model/limits_hit.h"
@@ -177,6 +179,9 @@ struct FrameReport {
   double stage_ms[kStages] = {};  ///< Wall time, summed over the frame's steps.
   /// Processor time of all threads, summed over the frame's steps.
   double stage_cpu_ms[kStages] = {};
+  /// Parallel loops, if Simulation::count_loops() was called; summed over the frame's steps, not
+  /// stored in recordings.
+  std::array<LoopTimes, kStages> stage_loops;
   std::vector<WorkItem> work;  ///< Parts of stages, summed over the frame's steps.
   Counts counts;
   /// Total mass, including debris, bodies removed by the script and shots yet to come.

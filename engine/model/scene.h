@@ -155,6 +155,13 @@ struct Limits {
   std::uint32_t probe_events = 24;
   /// Rounds of breaks in a step: solids that break one behind the other.
   std::uint32_t break_rounds = 8;
+  /// Factor on the size of the smallest pieces that are bodies (the cube root of
+  /// Material::smallest_piece_m3): smaller pieces become debris.
+  double piece_size_factor = 1;
+  /// Factor on the least radius of debris; smaller debris is left out.
+  double chip_size_factor = 1;
+  /// False: impacts break only the two bodies that meet, not those that they are passed on to.
+  bool passed_impacts = true;
 };
 
 struct Scene {

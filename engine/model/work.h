@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "engine/base/loop_times.h"
+
 namespace sunder {
 
 /// The stages of a step, in order.
@@ -17,6 +19,7 @@ struct WorkItem {
   const char* name = "";
   std::uint64_t count = 0;
   double ms = 0;
+  LoopTimes loops = {};  ///< Of its parallel loops, if they are counted.
 };
 
 }  // namespace sunder

@@ -23,6 +23,7 @@ class WorkLog {
     if (found == items_.end()) return items_.push_back(item);
     found->count += item.count;
     found->ms += item.ms;
+    found->loops += item.loops;
   }
   const std::vector<WorkItem>& items() const { return items_; }
   /// Returns the items and clears the log.
@@ -36,9 +37,10 @@ class WorkLog {
 class WorkSpan {
  public:
   WorkSpan(WorkLog& log, Stage stage, const char* name)
-      : span_(name), log_(log), item_{stage, name, 0, 0} {}
+      : span_(name), log_(log), item_{stage, name, 0, 0, {}} {}
   ~WorkSpan() {
     item_.ms = watch_.ms();
+    item_.loops = LoopCount::times() - loops_before_;
     log_.add(item_);
   }
   WorkSpan(const WorkSpan&) = delete;
@@ -48,6 +50,7 @@ class WorkSpan {
  private:
   TraceSpan span_;
   Stopwatch watch_;
+  LoopTimes loops_before_ = LoopCount::times();
   WorkLog& log_;
   WorkItem item_;
 };

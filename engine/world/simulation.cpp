@@ -1,9 +1,11 @@
 #include "engine/world/simulation.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/base/cpu_time.h"
+#include "engine/base/loop_times.h"
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "engine/world/act/act_stage.h"
@@ -27,9 +29,12 @@ class StageClock {
     const double now_ms = cpu_ms();
     report.stage_ms[static_cast<int>(stage)] += watch_.lap_ms();
     report.stage_cpu_ms[static_cast<int>(stage)] += now_ms - std::exchange(cpu_ms_, now_ms);
+    const LoopTimes loops = LoopCount::times();
+    report.stage_loops[static_cast<int>(stage)] += loops - std::exchange(loops_, loops);
   }
 
  private:
+  LoopTimes loops_ = LoopCount::times();
   Stopwatch watch_;
   double cpu_ms_ = cpu_ms();
 };
@@ -55,6 +60,7 @@ struct Simulation::Parts {
   ParticleStage particles;
   bool started = false;   ///< Frame 0 has been returned.
   bool inspects = false;  ///< Frames get inspections.
+  bool counts_loops = false;
 
   Parts(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaks_by,
         std::unique_ptr<Particles> moves)
@@ -87,8 +93,12 @@ Simulation::~Simulation() = default;
 
 void Simulation::inspect() { parts_->inspects = true; }
 
+void Simulation::count_loops() { parts_->counts_loops = true; }
+
 FramePtr Simulation::next() {
-  auto& [world, breaker, act, breaks, loads, particles, started, inspects] = *parts_;
+  auto& [world, breaker, act, breaks, loads, particles, started, inspects, counts_loops] = *parts_;
+  std::optional<LoopCount> count;
+  if (counts_loops) count.emplace();
   if (started) {
     const double frame_s = world.clock.frame_s();
     const double end_s = static_cast<double>(world.clock.frame + 1) * frame_s;

@@ -25,6 +25,9 @@ class Simulation final : public FrameSource {
   FramePtr next() override;
   /// Adds inspections to all later frames (Frame::inspection); the run is unchanged.
   void inspect();
+  /// Runs all later frames on the thread that calls next(), and reports what their parallel loops
+  /// would take with more threads (FrameReport::stage_loops).
+  void count_loops();
   /// Advances by one step of the scene's dt.
   void advance();
 

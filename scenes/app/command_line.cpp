@@ -37,6 +37,8 @@ void add_simulate(CLI::App& program, Command& chosen) {
       "A recording of the same run; fail at the first frame whose state differs");
   command.app->add_option("--trace", command.options->trace,
                           "Write a trace of all threads, for ui.perfetto.dev");
+  command.app->add_flag("--count-threads", command.options->count_threads,
+                        "Run on one thread, and report what 2 to 16 threads would take");
   command.reads("SCENE", command.options->scene);
   command.reads("--verify", command.options->verify);
   command.writes("--take", command.options->take);

@@ -135,7 +135,7 @@ FramePtr simulated_frame(const Golden& golden, bool quiet) {
   const int last = last_frame(scene, golden.frame, "FRAME " + std::to_string(golden.frame));
   Progress progress("record " + scene.name, last, quiet);
   const render::ViewMode mode(golden.view_mode);
-  const auto simulation = make_simulation(std::move(scene), mode.needs_inspection());
+  const auto simulation = make_simulation(std::move(scene), {.inspect = mode.needs_inspection()});
   FramePtr frame;
   for (int i = 0; i <= last; ++i) {
     frame = simulation->next();

@@ -192,7 +192,7 @@ RenderInput open(const RenderOptions& options, const Span& span, bool from_start
     Scene scene = scenes::load_scene(options.scene, options.load);
     last = last_frame(scene, -1);
     const render::ViewMode mode(options.render.view_mode);
-    input.source = make_simulation(std::move(scene), mode.needs_inspection());
+    input.source = make_simulation(std::move(scene), {.inspect = mode.needs_inspection()});
   }
   input.drawn = {span.first, std::min(span.last, last)};
   if (input.drawn.first > input.drawn.last) {

@@ -81,9 +81,7 @@ int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
   return caught == 0 ? 0 : 128 + caught;
 }
 
-std::unique_ptr<FrameSource> make_simulation(Scene scene, bool inspect) {
-  scenes::SimulationOptions options;
-  options.inspect = inspect;
+std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options) {
   options.cases_folder = "sunder-cases";
   options.warn = [](const std::string& warning) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());

@@ -27,7 +27,7 @@ int simulate(const SimulateOptions& options) {
   Statistics statistics(scenes::run_info(scene, options.load.preset));
   Progress progress("simulate " + scene.name, last, options.quiet);
   StateHash hash;
-  const auto simulation = make_simulation(std::move(scene));
+  const auto simulation = make_simulation(std::move(scene), {.count_loops = options.count_threads});
   FramesUntil frames(*simulation, last);
   std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
   std::optional<RecordingReader> recording;

@@ -342,7 +342,16 @@ Schema make_schema() {
            "others by energy; what closes after them breaks nothing."),
        key<&Limits::break_rounds>("break_rounds", "", Range{1, 1000},
                                   "Rounds of breaks in a step: solids that break one behind the "
-                                  "other.")}};
+                                  "other."),
+       key<&Limits::piece_size_factor>(
+           "piece_size_factor", "", Range{0, 100},
+           "Factor on the size of the smallest pieces that are bodies, the cube root of "
+           "smallest_piece_m3: smaller pieces become debris."),
+       key<&Limits::chip_size_factor>("chip_size_factor", "", Range{1, 100},
+                                      "Factor on debris_smallest_m: smaller debris is left out."),
+       key<&Limits::passed_impacts>("passed_impacts",
+                                    "false: impacts break only the two bodies that meet, not those "
+                                    "that they are passed on to.")}};
   s.ground = {
       "[ground]",
       {key<&Ground::height_m>("height_m", "m", kPlace, "Height of the plane."),

@@ -37,9 +37,18 @@ void run_stages(const std::vector<Stage>& stages, const Work& work) {
     const std::uint32_t begin = block * stage.grain;
     work(stage, stage.first + begin, stage.first + std::min(stage.count, begin + stage.grain));
   };
-  if (widest < kMinParallelBlocks || !can_run_parallel()) {
+  if (widest < kMinParallelBlocks) {
     for (const Stage& stage : stages)
       for (std::uint32_t block = 0; block < stage.blocks(); ++block) run(stage, block);
+    return;
+  }
+  sunder::detail::LoopTimer timer;
+  if (timer.counts() || !can_run_parallel()) {
+    for (const Stage& stage : stages) {
+      for (std::uint32_t block = 0; block < stage.blocks(); ++block)
+        timer.run_chunk([&] { run(stage, block); });
+      timer.end_loop();
+    }
     return;
   }
   struct alignas(64) Count {

@@ -12,8 +12,10 @@
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
+#include "engine/base/loop_times.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
+#include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
 #include "engine/base/types.h"
 
@@ -209,6 +211,59 @@ TEST_P(ForChunks, ANestedLoopMayNotRunInParallel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, ForChunks, ::testing::Values(1, 2, 4));
+
+/// Waits for a time without sleeping.
+void be_busy(double ms) {
+  const Stopwatch watch;
+  while (watch.ms() < ms) {
+  }
+}
+
+TEST(LoopCount, GivesTimesOfLoopsWithMoreThreads) {
+  const LoopCount count;
+  std::set<std::thread::id> threads;
+  for_chunks(5, 1, [&](std::size_t begin, std::size_t, std::size_t) {
+    threads.insert(std::this_thread::get_id());
+    be_busy(begin == 0 ? 4 : 1);
+    // A loop within a part runs on the thread of that part.
+    for_chunks(2, 1, [&](std::size_t, std::size_t, std::size_t) { be_busy(0.1); });
+  });
+  EXPECT_EQ(threads.size(), 1u);
+  const LoopTimes times = LoopCount::times();
+  const auto& [two, four, eight, sixteen] = times.threads_ms;
+  EXPECT_GE(times.work_ms, 9);
+  EXPECT_GE(two, times.work_ms / 2);
+  EXPECT_GE(times.span_ms, 4.2);
+  // The first part takes four fifths of the time of all others: with two threads, the other one
+  // does these, with four threads no other waits for it.
+  EXPECT_LT(two, times.work_ms);
+  EXPECT_LE(four, two);
+  EXPECT_LE(eight, four);
+  EXPECT_EQ(sixteen, times.span_ms) << "there are fewer parts than threads";
+  EXPECT_EQ(eight, times.span_ms);
+}
+
+TEST(LoopCount, OfLoopsThatWaitForEachOtherIsTheirSum) {
+  const LoopCount count;
+  for (int i = 0; i < 3; ++i)
+    for_chunks(2, 1, [&](std::size_t, std::size_t, std::size_t) { be_busy(1); });
+  const LoopTimes times = LoopCount::times();
+  EXPECT_GE(times.work_ms, 6);
+  EXPECT_GE(times.span_ms, 3);
+  EXPECT_LT(times.span_ms, times.work_ms);
+}
+
+TEST(LoopCount, LeavesOutLoopsOfOnePart) {
+  {
+    const LoopCount count;
+    for_chunks(1, 1, [&](std::size_t, std::size_t, std::size_t) { be_busy(0.1); });
+    EXPECT_EQ(LoopCount::times().work_ms, 0);
+    for_chunks(2, 1, [&](std::size_t, std::size_t, std::size_t) { be_busy(0.1); });
+    EXPECT_GE(LoopCount::times().work_ms, 0.2);
+  }
+  for_chunks(2, 1, [&](std::size_t, std::size_t, std::size_t) { be_busy(0.1); });
+  EXPECT_EQ(LoopCount::times().work_ms, 0) << "there is no LoopCount";
+}
 
 }  // namespace
 }  // namespace sunder::base_test

@@ -88,6 +88,15 @@ TEST(SceneCheck, NamesWhatIsWrong) {
       {"materials[1].crumbling.debris_largest_m",
        [](Scene& s) { s.materials[1].crumbling.debris_largest_m = 0; }},
       {"limits.bodies is 0", [](Scene& s) { s.limits.bodies = 0; }},
+      {"limits.piece_size_factor is -1", [](Scene& s) { s.limits.piece_size_factor = -1; }},
+      {"limits.piece_size_factor is nan", [](Scene& s) { s.limits.piece_size_factor = kNaN; }},
+      {"limits.piece_size_factor is 1000, so that all pieces of the largest solid would be debris; "
+       "expected at most 100",
+       [](Scene& s) {
+         s.limits.piece_size_factor = 1000;
+         s.materials[0].pattern.kind = PatternSpec::Kind::kVoronoi;
+       }},
+      {"limits.chip_size_factor is 0.5", [](Scene& s) { s.limits.chip_size_factor = 0.5; }},
       {"max_colors", [](Scene& s) { s.solver.max_colors = 65; }},
       {"solids[1].compound has a bond with a face",
        [](Scene& s) {

@@ -11,6 +11,7 @@
 
 #include "engine/base/check.h"
 #include "engine/io/state_hash.h"
+#include "engine/model/checks/scene_check.h"
 #include "scenes/load.h"
 
 namespace sunder::scenes {
@@ -75,6 +76,74 @@ TEST(MakeSimulation, InspectionHasTheForcesOfContactsAndDoesNotChangeTheState) {
     }
     EXPECT_EQ(last->inspection->stresses.size(), last->instances.size());
   }
+}
+
+/// Returns a scene in which a steel ball goes through a wall of brick.
+Scene struck_wall(const std::string& limits = "") {
+  return parse_scene(std::string(kHead) +
+                         "[[solid]]\nstructure = \"box\"\nsize_m = [1, 1, 0.3]\n"
+                         "anchored = \"bottom\"\nmaterial = \"brick\"\n"
+                         "[[ball]]\nposition = [-1, 0.5, 0]\nvelocity = [40, 0, 0]\n"
+                         "radius_m = 0.2\nmaterial = \"steel\"\n[limits]\n" +
+                         limits,
+                     "wall.toml");
+}
+
+TEST(MakeSimulation, CountingLoopsTimesThemAndDoesNotChangeTheState) {
+  SimulationOptions counting;
+  counting.count_loops = true;
+  const FramePtr last = end_of(struck_wall(), counting), plain = end_of(struck_wall());
+  EXPECT_EQ(hash_state(*last), hash_state(*plain));
+  double counted_ms = 0;
+  for (std::size_t stage = 0; stage < kStages; ++stage) {
+    const LoopTimes& loops = last->report.stage_loops[stage];
+    counted_ms += loops.work_ms;
+    EXPECT_LE(loops.work_ms, last->report.stage_ms[stage]);
+    EXPECT_LE(loops.span_ms, loops.work_ms);
+    EXPECT_EQ(plain->report.stage_loops[stage].work_ms, 0);
+  }
+  EXPECT_GT(counted_ms, 0);
+}
+
+TEST(MakeSimulation, SmallPiecesAreBodiesOnlyAboveTheFactorOnTheirSize) {
+  const FramePtr fine = end_of(struck_wall()),
+                 coarse = end_of(struck_wall("piece_size_factor = 2\n"));
+  EXPECT_LT(coarse->report.counts.bodies, fine->report.counts.bodies);
+  EXPECT_GT(coarse->report.counts.bodies, 2u) << "the ball, and more than one piece";
+  EXPECT_NEAR(coarse->report.mass_kg, fine->report.mass_kg, 1e-9 * fine->report.mass_kg);
+  EXPECT_LT(coarse->report.volume_m3, fine->report.volume_m3) << "more debris";
+  EXPECT_THROW(check_scene(struck_wall("piece_size_factor = 50\n")), InputError);
+}
+
+TEST(MakeSimulation, SmallDebrisIsLeftOutBelowTheFactorOnItsSize) {
+  const FramePtr all = end_of(struck_wall()), few = end_of(struck_wall("chip_size_factor = 2\n")),
+                 least = end_of(struck_wall("chip_size_factor = 100\n"));
+  // Pieces too small for a body are debris of any size.
+  const std::size_t pieces = least->debris.size();
+  ASSERT_GT(all->debris.size(), pieces + 200);
+  const double kept = static_cast<double>(few->debris.size() - pieces) /
+                      static_cast<double>(all->debris.size() - pieces);
+  EXPECT_NEAR(kept, 0.25, 0.1);
+  EXPECT_EQ(few->report.counts.bodies, all->report.counts.bodies);
+}
+
+TEST(MakeSimulation, ImpactsAreNotPassedOnIfTheLimitsSaySo) {
+  // A ball strikes another that touches a block: without passing on, that breaks in a later step,
+  // when the second ball moves.
+  const auto breaks_at_s = [](const std::string& limits) {
+    const Scene scene = parse_scene(
+        std::string(kHead) + "gravity = [0, 0, 0]\n[limits]\n" + limits +
+            "[[solid]]\nstructure = \"box\"\nsize_m = [0.3, 0.3, 0.3]\nmaterial = \"concrete\"\n"
+            "[[ball]]\nposition = [-0.35, 0.15, 0]\nradius_m = 0.2\nmaterial = \"steel\"\n"
+            "[[ball]]\nposition = [-1.2, 0.15, 0]\nvelocity = [60, 0, 0]\nradius_m = 0.2\n"
+            "material = \"steel\"\n",
+        "row.toml");
+    const auto simulation = make_simulation(scene);
+    while (const FramePtr frame = simulation->next())
+      if (!frame->breaks.empty()) return frame->breaks[0].time_s;
+    return 1e9;
+  };
+  EXPECT_LT(breaks_at_s(""), breaks_at_s("passed_impacts = false\n") - 1e-3);
 }
 
 TEST(MakeSimulation, InspectionHasTheLargestStressAtTheFootOfAColumn) {

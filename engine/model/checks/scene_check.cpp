@@ -47,6 +47,7 @@ class SceneCheck {
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) check_material(i);
     for (std::size_t i = 0; i < scene_.solids.size(); ++i)
       check_solid(scene_.solids[i], item("solids", i));
+    check_piece_size();
     for (std::size_t i = 0; i < scene_.balls.size(); ++i)
       check_ball(scene_.balls[i], item("balls", i));
     for (std::size_t i = 0; i < scene_.ground.meshes.size(); ++i) check_ground_mesh(i);
@@ -69,6 +70,8 @@ class SceneCheck {
     need_number(scene_.solver.sweeps, 1, 1000, "solver.sweeps");
     need_number(scene_.solver.max_colors, 0, 64, "solver.max_colors");
     need_number(scene_.limits.bodies, 1, 1e9, "limits.bodies");
+    need_number(scene_.limits.piece_size_factor, 0, kMaxNumber, "limits.piece_size_factor");
+    need_number(scene_.limits.chip_size_factor, 1, kMaxNumber, "limits.chip_size_factor");
     need_number(scene_.ground.height_m, -kMaxNumber, kMaxNumber, "ground.height_m");
     need_number(scene_.ground.friction, 0, kMaxNumber, "ground.friction");
     need_number(scene_.ground.restitution, 0, 1, "ground.restitution");
@@ -177,6 +180,21 @@ class SceneCheck {
                 "the length of " + name + ".X_WR.rotation");
     need_finite(solid.velocity_W, name + ".velocity_W");
     need_finite(solid.angular_velocity_W, name + ".angular_velocity_W");
+  }
+
+  /// Refuses a factor with which all pieces of the largest solid would be debris.
+  void check_piece_size() const {
+    double most = 0;  // size of the largest solid, in smallest pieces of its material
+    for (const Solid& solid : scene_.solids) {
+      const Material& material = scene_.materials[solid.compound.convexes[0]->material.value];
+      if (!material.breakable() && !material.breaks_by_load()) continue;
+      most = std::max(most, std::cbrt(volume(solid.compound) / material.smallest_piece_m3));
+    }
+    const double factor = scene_.limits.piece_size_factor;
+    if (factor > 1 && most > 0 && factor > most)
+      refuse("limits.piece_size_factor is " + text_of(factor) +
+                 ", so that all pieces of the largest solid would be debris",
+             "at most " + text_of(std::max(1.0, most)));
   }
 
   void check_ball(const Ball& ball, const std::string& name) const {

@@ -140,6 +140,7 @@ class ClusterSearch {
       if (actor && !actor->is_static && members_.is_claimed(place)) return false;
       direct |= may_break(world_, actor, seed);
     }
+    if (!direct && !world_.scene.limits.passed_impacts) return false;
     most_ = most_bodies(world_, direct);
     for (const std::uint32_t place : ends) add(place);
     return true;
