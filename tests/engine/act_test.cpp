@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/random.h"
 #include "tests/engine/scripted.h"
 
 namespace sunder {
@@ -83,6 +84,24 @@ TEST(Blast, WithCoverPushesOnlyBodiesInLineOfSight) {
     EXPECT_NEAR(run.state(1).velocity_W.x(), cover ? 0 : free_m_s, 1e-9);
     EXPECT_NEAR(run.state(2).velocity_W.z(), free_m_s, 1e-9);
     EXPECT_EQ(run.state(3).velocity_W.norm() > 0, !cover);
+  }
+}
+
+TEST(Blast, CoverHasTheDirectionOfWhatCovers) {
+  Random random(1, 0);
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 direction = random.direction();
+    const Vec3 aside = (direction + 0.6 * direction.unitOrthogonal()).normalized();
+    Scene scene = empty_scene();
+    scene.materials[0].pattern.kind = PatternSpec::Kind::kNone;
+    scene.solids = {row(2 * direction - Vec3::Constant(0.5), 1, true)};
+    scene.balls = {{"behind", 0.1, MaterialIndex(0), 4 * direction, Vec3::Zero()},
+                   {"aside", 0.1, MaterialIndex(0), 4 * aside, Vec3::Zero()}};
+    scene.blasts = {{0, Vec3::Zero(), 5, 1000, true}};
+    ActRun run(scene);
+    for (int frame = 0; frame < 5; ++frame) run.simulation->next();
+    EXPECT_EQ(run.state(1).velocity_W.norm(), 0) << direction.transpose();
+    EXPECT_GT(run.state(2).velocity_W.norm(), 0) << direction.transpose();
   }
 }
 
@@ -316,6 +335,40 @@ TEST(Joint, ABodyFixedToTheWorldBearsTheWholeImpactWhateverItsMass) {
     });
     EXPECT_EQ(run.simulation->next()->breaks.size(), energy_J > 30 ? 1u : 0u) << energy_J;
   }
+}
+
+/// Scripted physics that keeps the joints of the last probe.
+class ProbedPhysics : public ScriptedPhysics {
+ public:
+  using ScriptedPhysics::ScriptedPhysics;
+  std::unique_ptr<ImpactProbe> probe(ProbeCluster cluster) const override {
+    joints_probed = cluster.joints;
+    return ScriptedPhysics::probe(std::move(cluster));
+  }
+  mutable std::vector<ProbeJoint> joints_probed;
+};
+
+TEST(Joint, IsProbedWithItsArmsAboutBothBodies) {
+  Scene scene = empty_scene();
+  scene.materials[0].impact_radius_m = 10;
+  scene.solids = {row(Vec3(0, -0.5, -0.5), 2, false), row(Vec3(2.5, -0.5, -0.5), 1, false)};
+  Joint joint;
+  joint.kind = JointKind::kFixed;
+  joint.a = 0;
+  joint.b = 1;
+  joint.at_W = Vec3(2.25, 0.2, 0);
+  scene.joints = {joint};
+  scene.balls = {{"ball", 0.25, MaterialIndex(0), Vec3(-0.26, 0, 0), Vec3(3, 0, 0)}};
+  auto owned = std::make_unique<ProbedPhysics>([](const ScriptedPhysics& physics, int) {
+    return physics.approach(2, 0, Vec3::Zero(), Vec3::UnitX());
+  });
+  const ProbedPhysics& physics = *owned;
+  Simulation simulation(std::move(scene), std::move(owned), std::make_unique<ScriptedBreaker>(1));
+  simulation.next();
+  simulation.next();
+  ASSERT_EQ(physics.joints_probed.size(), 1u);
+  EXPECT_LT((physics.joints_probed[0].arm_a_W - Vec3(1.25, 0.2, 0)).norm(), 1e-12);
+  EXPECT_LT((physics.joints_probed[0].arm_b_W - Vec3(-0.75, 0.2, 0)).norm(), 1e-12);
 }
 
 }  // namespace

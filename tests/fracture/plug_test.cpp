@@ -199,6 +199,24 @@ TEST(Detail, costs_at_most_a_tenth_of_the_energy) {
   EXPECT_EQ(before, 512);
 }
 
+TEST(Detail, of_a_web_in_a_cube_costs_at_most_a_tenth_of_the_energy) {
+  const Material material = brick();
+  StructureImpact hit;
+  hit.reached_m3 = 1;
+  const int rings = 6, spokes = 12;
+  // A cylinder as deep as the cube: its radius is 1/√π m.
+  const double crack_m2 = (spokes + std::numbers::pi * rings) / std::sqrt(std::numbers::pi);
+  for (const double share : {0.99, 1.01}) {
+    PatternSpec web;
+    web.kind = PatternSpec::Kind::kWeb;
+    web.rings = rings, web.spokes = spokes;
+    hit.energy_J = share * crack_m2 * material.toughness_J_m2 / 0.1;
+    limit_cells_by_energy(material, hit, std::numeric_limits<double>::infinity(), 0, web);
+    EXPECT_EQ(web.rings, share > 1 ? rings : rings / 2);
+    EXPECT_EQ(web.spokes, share > 1 ? spokes : spokes / 2);
+  }
+}
+
 TEST(Detail, of_a_web_goes_down_to_three_spokes_and_a_ring) {
   StructureImpact hit;
   hit.reached_m3 = 0.006;

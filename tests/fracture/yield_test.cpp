@@ -117,6 +117,22 @@ void expect_unchanged(const StressResult& answer) {
   EXPECT_TRUE(answer.edit.cut.empty());
 }
 
+TEST(Yield, TheSearchForBondsThatYieldCountsAsWork) {
+  const Compound compound = bar(kLength, kWidth, 10, 1);
+  const auto loads =
+      by_slots(pull_at_end(compound, Vec3(0, -0.5 * kPlasticMoment_Nm / kLength, 0)));
+  std::vector<Material> brittle = steel();
+  for (Material& material : brittle) {
+    material.tensile_Pa = material.compressive_Pa = 10 * kYield_Pa;
+    material.yield_Pa = 0;
+  }
+  const StressResult yields = evaluate(compound, loads);
+  const StressResult cracks = evaluate(compound, loads, Vec3::Zero(), brittle);
+  expect_unchanged(yields);
+  expect_unchanged(cracks);
+  EXPECT_GT(yields.work, cracks.work);
+}
+
 TEST(Yield, ACantileverYieldsAtItsRootAtThePlasticMoment) {
   for (const int across : {1, 2, 3, 4, 5, 6}) {
     SCOPED_TRACE(across);

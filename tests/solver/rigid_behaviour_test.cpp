@@ -58,6 +58,15 @@ TEST(RigidPhysics, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
+TEST(RigidPhysics, CountsContactsAndTheirPoints) {
+  RigidWorld world;
+  world.add(W::ground());
+  for (const double x : {0.0, 3.0}) world.add(W::box(Vec3::Ones(), Vec3(x, 0.5, 0)));
+  const SolveReport report = world.step(1.0 / 60, 5);
+  EXPECT_EQ(report.contacts, 2u);
+  EXPECT_EQ(report.contact_points, 8u);
+}
+
 TEST(RigidPhysics, APileFallsAsleepAndStaysAsleep) {
   RigidWorld world;
   world.add(W::ground());
