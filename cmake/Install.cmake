@@ -6,6 +6,7 @@ include(CMakePackageConfigHelpers)
 
 set(public_headers
   engine/base/check.h
+  engine/base/loop_times.h
   engine/base/types.h
   engine/geometry/convex_polyhedron.h
   engine/io/statistics.h

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-#include "engine/base/loop_times.h"
+#include "engine/base/loop_count.h"
 #include "engine/base/trace.h"
 
 namespace sunder {

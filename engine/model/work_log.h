@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/loop_count.h"
 #include "engine/base/trace.h"
 #include "engine/model/work.h"
 

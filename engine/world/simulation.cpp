@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/cpu_time.h"
-#include "engine/base/loop_times.h"
+#include "engine/base/loop_count.h"
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "engine/world/act/act_stage.h"

@@ -12,7 +12,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
-#include "engine/base/loop_times.h"
+#include "engine/base/loop_count.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "engine/base/trace.h"

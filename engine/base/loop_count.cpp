@@ -1,4 +1,4 @@
-#include "engine/base/loop_times.h"
+#include "engine/base/loop_count.h"
 
 #include <algorithm>
 #include <span>
