@@ -13,8 +13,8 @@
 
 namespace sunder::app {
 
-/// Makes the simulation of a scene. Warnings go to stderr, case files of failed breaks to
-/// sunder-cases/. `inspect`: frames have an Inspection, as some view modes need.
+/// Makes the simulation of a scene. Warnings go to stderr, and case files of failed breaks to
+/// sunder-cases/, whatever `options` has for them.
 std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options = {});
 /// Returns the index of the last frame: `wanted`, or the last of the scene if that is negative.
 /// Throws InputError that begins with `option` if the scene ends before.
