@@ -10,7 +10,7 @@ namespace sunder::scenes {
 namespace {
 
 /// To be increased whenever results of reading, repair or decomposition, or this layout, change.
-constexpr std::uint64_t kVersion = 6;
+constexpr std::uint64_t kVersion = 7;
 
 template <class Vectors>
 void put_all(ByteWriter& out, const Vectors& vectors) {

@@ -93,37 +93,6 @@ std::vector<MaterialIndex> materials_of(const RawMesh& mesh, const std::string& 
   return of_groups;
 }
 
-/// A mesh of which more than this fraction of the volume is inside out after decomposition passes
-/// through itself so much that its inside is undefined.
-constexpr double kMaxInsideOutFraction = 1e-3;
-
-/// Repairs and decomposes a mesh; if too much is inside out, again with a new, enclosing surface.
-fracture::Vacd decompose_repaired(RawMesh raw, const std::string& file, const MeshOptions& options,
-                                  const fracture::VacdOptions& vacd_of, MeshSolid& solid) {
-  RepairOptions repair;
-  repair.repair = options.repair != "off";
-  const auto attempt = [&](RawMesh mesh) {
-    if (options.progress) options.progress("repairing", 0.1);
-    RepairedMesh repaired = repair_mesh(std::move(mesh), file, repair);
-    if (options.progress) options.progress("decomposing", 0.4);
-    fracture::Vacd vacd = fracture::decompose(repaired, vacd_of);
-    solid.closed = repaired.closed;
-    solid.repairs = std::move(repaired.repairs);
-    return vacd;
-  };
-  RawMesh copy = raw;
-  fracture::Vacd vacd = attempt(std::move(raw));
-  if (vacd.figures.inside_out_m3 <= kMaxInsideOutFraction * vacd.figures.mesh_volume_m3)
-    return vacd;
-  if (!repair.repair) {
-    throw InputError(file + ": the mesh intersects itself, but repair is off; fix the mesh, or " +
-                     "set repair to auto");
-  }
-  repair.enclose_all = true;
-  repair.shell_cells *= 2;
-  return attempt(std::move(copy));
-}
-
 bool same(const EncodedImage& a, const EncodedImage& b) {
   return a && b ? *a == *b : a == b;  // one file may have been read twice
 }
@@ -202,7 +171,12 @@ MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
   if (!known) {
     solid.vertices = raw.vertices.size();
     solid.faces = raw.polygons.size();
-    fracture::Vacd vacd = decompose_repaired(std::move(raw), file, options, vacd_of, solid);
+    if (options.progress) options.progress("repairing", 0.1);
+    RepairedMesh repaired = repair_mesh(std::move(raw), file, {.repair = options.repair != "off"});
+    if (options.progress) options.progress("decomposing", 0.4);
+    fracture::Vacd vacd = fracture::decompose(repaired, vacd_of);
+    solid.closed = repaired.closed;
+    solid.repairs = std::move(repaired.repairs);
     solid.compound = std::move(vacd.compound);
     solid.vacd = vacd.figures;
     if (options.cached) store_cached(key, solid);

@@ -10,6 +10,7 @@
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/repair/clean.h"
+#include "engine/geometry/repair/inside_out.h"
 #include "engine/geometry/repair/winding.h"
 #include "engine/geometry/triangulate.h"
 #include "engine/io/mesh/mesh_reader.h"
@@ -222,6 +223,84 @@ TEST(Repair, UnconnectedSheetsAreEnclosed) {
   EXPECT_EQ(count_of(repaired, "faces enclosed in a winding-number shell"), 6u);
   EXPECT_EQ(repaired.shells.size(), 1u);
   EXPECT_NEAR(total_volume(repaired), 1, 0.05);
+}
+
+/// Returns a prism over an outline in x and y from z = 0 to 1.
+PolygonMesh prism_over(const std::vector<Vec2>& outline) {
+  const auto count = static_cast<std::uint32_t>(outline.size());
+  RawMesh raw;
+  for (const double z : {0.0, 1.0}) {
+    for (const Vec2& p : outline) raw.vertices.emplace_back(p.x(), p.y(), z);
+  }
+  PolygonMesh mesh;
+  mesh.vertices = raw.vertices;
+  const auto add = [&](const std::vector<std::uint32_t>& corners, const Vec3& normal) {
+    PolygonMesh::Face face;
+    face.plane = Plane::through(mesh.vertices[corners[0]], normal);
+    face.first_contour = static_cast<std::uint32_t>(mesh.contours.size());
+    face.contour_count = 1;
+    mesh.contours.push_back({static_cast<std::uint32_t>(mesh.corners.size()),
+                             static_cast<std::uint32_t>(corners.size())});
+    mesh.corners.insert(mesh.corners.end(), corners.begin(), corners.end());
+    mesh.faces.push_back(face);
+  };
+  std::vector<std::uint32_t> top, bottom;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    top.push_back(count + i);
+    bottom.insert(bottom.begin(), i);
+    const std::uint32_t next = (i + 1) % count;
+    const Vec2 along = outline[next] - outline[i];
+    add({i, next, count + next, count + i}, Vec3(along.y(), -along.x(), 0).normalized());
+  }
+  add(top, Vec3::UnitZ());
+  add(bottom, -Vec3::UnitZ());
+  return mesh;
+}
+
+TEST(InsideOut, VolumeIsThatOfTheLobesThatWindBackwards) {
+  EXPECT_EQ(inside_out_volume(prism_over({{0, 0}, {1, 0}, {1, 1}, {0, 1}})), 0);
+  EXPECT_NEAR(inside_out_volume(prism_over({{0, 0}, {0, 1}, {1, 1}, {1, 0}})), 1, 1e-12);
+  // A bow tie: a square of area 2 over its corner, and beyond the crossing one of area 0.5.
+  const std::vector<Vec2> bow_tie = {{-2, 0}, {-1, -1}, {0.5, 0.5}, {1, 0}, {0.5, -0.5}, {-1, 1}};
+  EXPECT_NEAR(inside_out_volume(prism_over(bow_tie)), 0.5, 0.01);
+  // Backwards twice where the contour goes around twice.
+  EXPECT_NEAR(inside_out_volume(
+                  prism_over({{0, 0}, {0, 2}, {1, 2}, {1, 0}, {0, 0}, {0, 2}, {1, 2}, {1, 0}})),
+              4, 1e-12);
+  // A cavity is not inside out.
+  RawMesh hollow = box();
+  add_box(hollow, Vec3(0.25, 0.25, 0.25), Vec3(0.75, 1.75, 2.75), {}, true);
+  const RepairedMesh repaired = repair_mesh(hollow, "hollow");
+  ASSERT_EQ(repaired.shells.size(), 1u);
+  EXPECT_EQ(inside_out_volume(repaired.shells[0]), 0);
+}
+
+TEST(InsideOut, VolumeIsTheSameFromAnyDirection) {
+  const std::vector<Vec2> bow_tie = {{-2, 0}, {-1, -1}, {0.5, 0.5}, {1, 0}, {0.5, -0.5}, {-1, 1}};
+  PolygonMesh mesh = prism_over(bow_tie);
+  for (int turn = 0; turn < 20; ++turn) {
+    const Mat3 by =
+        Eigen::AngleAxisd(0.37 * turn, Vec3(1, 0.3 * turn, 2).normalized()).toRotationMatrix();
+    PolygonMesh turned = mesh;
+    for (Vec3& v : turned.vertices) v = by * v;
+    for (PolygonMesh::Face& face : turned.faces) face.plane.normal = by * face.plane.normal;
+    EXPECT_NEAR(inside_out_volume(turned), 0.5, 0.03) << turn;
+  }
+}
+
+TEST(Repair, AMeshThatIsInsideOutInPartIsEnclosed) {
+  const std::vector<Vec2> bow_tie = {{-2, 0}, {-1, -1}, {0.5, 0.5}, {1, 0}, {0.5, -0.5}, {-1, 1}};
+  const PolygonMesh prism = prism_over(bow_tie);
+  RawMesh raw;
+  raw.vertices = prism.vertices;
+  for (std::size_t c = 0; c < prism.contours.size(); ++c) {
+    const auto corners = prism.contour_corners(c);
+    append_polygon(raw, std::vector<std::uint32_t>(corners.begin(), corners.end()), 0);
+  }
+  const RepairedMesh repaired = repair_mesh(raw, "bow tie");
+  EXPECT_EQ(count_of(repaired, "faces enclosed in a winding-number shell"), 8u);
+  EXPECT_NEAR(total_volume(repaired), 2, 0.1);
+  EXPECT_THROW(repair_mesh(raw, "bow tie", {.repair = false}), InputError);
 }
 
 TEST(Repair, ASheetWithoutVolumeIsRefused) {

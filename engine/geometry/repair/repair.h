@@ -3,8 +3,8 @@
 //
 // Begin with repair_mesh() in repair.cpp, which calls the tiers in order. Vertices and faces are
 // cleaned (clean.h), faces oriented and edges paired (surface.h), and holes closed (holes.h). Parts
-// still open are replaced by an isosurface of their winding number (shell.h). solids.h makes
-// polygon meshes of closed shells.
+// still open are replaced by an isosurface of their winding number (shell.h), and the whole mesh if
+// it passes through itself too much (inside_out.h). solids.h makes polygon meshes of closed shells.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,6 @@ struct RepairOptions {
   /// Least cosine between face normals at a smooth edge, where the file has no normals.
   double crease_cosine = 0.766;    // 40 degrees
   std::uint32_t shell_cells = 32;  ///< Grid cells of the last tier along the longest side.
-  bool enclose_all = false;        ///< True to pass closed parts to the last tier too.
 };
 
 /// A kind of repair, and the number of elements of the mesh that it was applied to.
