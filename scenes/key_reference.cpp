@@ -85,7 +85,11 @@ std::string preset_list() {
   for (const Preset& preset : presets()) {
     text += "\n`" + std::string(preset.name) + "` (" + std::string(preset.help) + "): dt 1/" +
             format(1 / preset.accuracy.dt_s) + " s, " + std::to_string(preset.accuracy.substeps) +
-            " substeps.";
+            " substeps";
+    if (preset.full_detail > 0)
+      text += "; in [limits], full_detail = " + std::to_string(preset.full_detail) +
+              " and chip_size_factor = " + format(preset.chip_size_factor);
+    text += ".";
   }
   return text + "\n\n";
 }

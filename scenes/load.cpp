@@ -81,6 +81,8 @@ Scene Loader::load(const LoadOptions& options) {
       find_named(presets(), options.preset, "--preset " + options.preset + ": unknown preset");
   scene_.accuracy = preset.accuracy;
   scene_.solver.sweeps = preset.sweeps;
+  scene_.limits.full_detail = preset.full_detail;
+  scene_.limits.chip_size_factor = preset.chip_size_factor;
   read_accuracy();
   read_table(s.solver, "solver", scene_.solver);
   read_table(s.limits, "limits", scene_.limits);

@@ -155,6 +155,9 @@ struct Limits {
   std::uint32_t probe_events = 24;
   /// Rounds of breaks in a step: solids that break one behind the other.
   std::uint32_t break_rounds = 8;
+  /// Number of awake bodies above which the smallest piece that is a body grows: its volume is
+  /// multiplied by the awake bodies over this number; 0: never.
+  std::uint32_t full_detail = 0;
   /// Factor on the size of the smallest pieces that are bodies (the cube root of
   /// Material::smallest_piece_m3): smaller pieces become debris.
   double piece_size_factor = 1;

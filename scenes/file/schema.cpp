@@ -343,6 +343,10 @@ Schema make_schema() {
        key<&Limits::break_rounds>("break_rounds", "", Range{1, 1000},
                                   "Rounds of breaks in a step: solids that break one behind the "
                                   "other."),
+       key<&Limits::full_detail>(
+           "full_detail", "", Range{0, 200000},
+           "Awake bodies above which the smallest piece that is a body grows: smallest_piece_m3 is "
+           "multiplied by the awake bodies over this number; 0: never."),
        key<&Limits::piece_size_factor>(
            "piece_size_factor", "", Range{0, 100},
            "Factor on the size of the smallest pieces that are bodies, the cube root of "
@@ -435,10 +439,10 @@ Schema make_schema() {
 
 std::span<const Preset> presets() {
   static constexpr Preset kPresets[] = {
-      {"draft", {1.0 / 60, 8}, 1, "fastest"},
-      {"realtime", {1.0 / 120, 4}, 1, "the default"},
-      {"accurate", {1.0 / 120, 8}, 1, "a quarter of the penetration of the default"},
-      {"reference", {1.0 / 480, 4}, 4, "a sixteenth of the penetration of the default"},
+      {"draft", {1.0 / 60, 8}, 1, 200, 2, "fastest; larger pieces where many move"},
+      {"realtime", {1.0 / 120, 4}, 1, 0, 1, "the default"},
+      {"accurate", {1.0 / 120, 8}, 1, 0, 1, "a quarter of the penetration of the default"},
+      {"reference", {1.0 / 480, 4}, 4, 0, 1, "a sixteenth of the penetration of the default"},
   };
   return kPresets;
 }

@@ -115,6 +115,20 @@ TEST(MakeSimulation, SmallPiecesAreBodiesOnlyAboveTheFactorOnTheirSize) {
   EXPECT_THROW(check_scene(struck_wall("piece_size_factor = 50\n")), InputError);
 }
 
+TEST(MakeSimulation, TheSmallestPieceGrowsWithTheBodiesAwakeAboveFullDetail) {
+  const FramePtr all = end_of(struck_wall()), many = end_of(struck_wall("full_detail = 100000\n")),
+                 few = end_of(struck_wall("full_detail = 1\n"));
+  EXPECT_EQ(hash_state(*many), hash_state(*all)) << "never as many awake";
+  EXPECT_LT(few->report.counts.bodies, all->report.counts.bodies);
+  EXPECT_GT(few->report.counts.bodies, 2u) << "the ball, and more than one piece";
+  EXPECT_NEAR(few->report.mass_kg, all->report.mass_kg, 1e-9 * all->report.mass_kg);
+  EXPECT_LT(few->report.volume_m3, all->report.volume_m3) << "more debris";
+  const Limits draft = parse_scene(kHead, "empty.toml", {"draft", {}}).limits;
+  EXPECT_EQ(draft.full_detail, 200u);
+  EXPECT_EQ(draft.chip_size_factor, 2);
+  EXPECT_EQ(parse_scene(kHead, "empty.toml", {}).limits.full_detail, 0u);
+}
+
 TEST(MakeSimulation, SmallDebrisIsLeftOutBelowTheFactorOnItsSize) {
   const FramePtr all = end_of(struck_wall()), few = end_of(struck_wall("chip_size_factor = 2\n")),
                  least = end_of(struck_wall("chip_size_factor = 100\n"));

@@ -143,6 +143,17 @@ void age(World& world) {
   if (!resting.empty()) remove_actors(world, resting);
 }
 
+/// Sets the factor on the volume of the smallest pieces for this step.
+void set_smallest_piece_factor(World& world) {
+  const std::uint32_t full_detail = world.scene.limits.full_detail;
+  if (full_detail == 0) return;
+  const BodyStates states = world.physics->states();
+  const auto awake = std::ranges::count_if(world.actors, [&](const Actor& actor) {
+    return !actor.is_static && !states[actor.body].asleep;
+  });
+  world.smallest_piece_factor = std::max(1.0, static_cast<double>(awake) / full_detail);
+}
+
 Vec3 limit_length(double most, const Vec3& impulse) {
   return impulse.norm() > most ? Vec3(impulse * (most / impulse.norm())) : impulse;
 }
@@ -191,6 +202,7 @@ std::vector<ActorImpact> ActStage::run(World& world) {
   }
   update_moves(world);
   age(world);
+  set_smallest_piece_factor(world);
   return impacts;
 }
 

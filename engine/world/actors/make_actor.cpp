@@ -86,7 +86,8 @@ void set_least(const World& world, Actor& actor) {
   const bool may_bend = has_thin_convex(actor.structure);
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);
-    if (!material.breakable() || actor.volume_m3 < material.min_breakable_volume_m3()) continue;
+    const double least_m3 = world.smallest_piece_factor * material.min_breakable_volume_m3();
+    if (!material.breakable() || actor.volume_m3 < least_m3) continue;
     const double reach_m3 = reached_m3(material, actor.volume_m3);
     const double crack_m2 = kMinCrackArea * std::cbrt(reach_m3 * reach_m3);
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);

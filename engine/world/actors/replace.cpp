@@ -29,7 +29,8 @@ double kinetic_J_of(const World& world, std::span<const Actor> actors) {
 /// Returns true if a piece becomes a body: if it is anchored, held by a hinge, or large enough.
 bool is_body(const World& world, const Compound& piece, bool hinged) {
   if (piece.is_anchored() || hinged) return true;
-  return volume(piece) >= world.material(piece.convexes[0]->material).smallest_piece_m3;
+  return volume(piece) >= world.smallest_piece_factor *
+                              world.material(piece.convexes[0]->material).smallest_piece_m3;
 }
 
 /// Returns true if a hinge of the edit holds a piece, numbered as in exposed faces.

@@ -37,6 +37,8 @@ struct World {
   RunLog log;
   std::uint64_t next_event =
       1;  ///< Number of the next event, which names the planes that it makes.
+  /// Factor on Material::smallest_piece_m3 in this step, by Limits::full_detail.
+  double smallest_piece_factor = 1;
   std::optional<Exposed> exposed;  ///< None in a run without particles.
 
   World(Scene given, std::unique_ptr<Physics> moves)
