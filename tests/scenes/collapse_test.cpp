@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -109,6 +110,52 @@ TEST(Collapse, AWallThatWasShotThroughComesToRest) {
     if (frame->time_s > 8) awake = std::max(awake, frame->report.counts.awake);
   }
   EXPECT_LE(awake * 50, bodies) << "the ball, and the few that still roll";
+}
+
+/// A change of a body's state of rest, and how far its surface moves in that frame.
+struct RestChange {
+  double moved_m = 0;
+  bool falls_asleep = false;
+};
+
+/// Returns the changes in a run. Expects bodies not to move while they are asleep.
+std::vector<RestChange> rest_changes(FrameSource& simulation) {
+  constexpr double kSize_m = 0.3;  // about that of a piece, for its rotation
+  std::vector<RestChange> changes;
+  std::map<std::uint64_t, FrameBody> before;
+  while (const FramePtr frame = simulation.next()) {
+    std::map<std::uint64_t, FrameBody> now;
+    for (const FrameBody& body : frame->bodies) {
+      now[body.key] = body;
+      const auto known = before.find(body.key);
+      if (known == before.end() || body.is_static) continue;
+      const FrameBody& last = known->second;
+      const double moved_m = (body.X_WB.position - last.X_WB.position).norm() +
+                             kSize_m * body.X_WB.rotation.angularDistance(last.X_WB.rotation);
+      if (body.asleep && last.asleep) {
+        EXPECT_EQ(moved_m, 0) << body.key << " at " << frame->time_s << " s";
+      }
+      if (body.asleep != last.asleep) changes.push_back({moved_m, body.asleep});
+    }
+    before = std::move(now);
+  }
+  return changes;
+}
+
+TEST(Collapse, RubbleFallsAsleepAndWakesWithoutAJerk) {
+  constexpr double kFrame_s = 1. / 60, kFall_m = 9.81 * kFrame_s * kFrame_s;
+  for (const char* scene : {"brick_wall", "shed"}) {
+    const auto simulation = simulation_of(scene, {"scene.duration_s=8"}, "realtime");
+    std::vector<double> asleep_m, woken_m;
+    for (const RestChange& change : rest_changes(*simulation))
+      (change.falls_asleep ? asleep_m : woken_m).push_back(change.moved_m);
+    ASSERT_GT(asleep_m.size(), 500u) << scene;
+    ASSERT_GT(woken_m.size(), 100u) << scene;
+    std::ranges::sort(asleep_m);
+    std::ranges::sort(woken_m);
+    EXPECT_LT(asleep_m.back(), 1e-3) << scene;
+    EXPECT_LT(woken_m[woken_m.size() * 95 / 100], kFall_m) << scene << ": others are struck";
+  }
 }
 
 TEST(Collapse, AWallThatWasShotThroughHasAHoleAndStands) {
