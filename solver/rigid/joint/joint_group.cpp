@@ -62,7 +62,7 @@ void lay_out(JointGroup& group, std::span<const JointWork> works) {
       e.start.push_back(e.start.back() + at + static_cast<std::uint32_t>(i) + 1 - first);
     }
   }
-  e.entries.resize(e.start.back());
+  e.entries.resize(e.start.back() + Envelope::kPadding);
   group.bounded = std::ranges::any_of(works, [](const JointWork& work) {
     return work.kind == JointDesc::Kind::kRope || work.kind == JointDesc::Kind::kPlastic;
   });

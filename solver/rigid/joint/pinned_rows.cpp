@@ -11,25 +11,79 @@ namespace {
 constexpr int kMaxPinRounds = 32;
 constexpr double kBoundRounding = 1e-9;  // relative, for rounding
 
+typedef double Doubles __attribute__((vector_size(32), aligned(8), may_alias));
+typedef std::int64_t Bits __attribute__((vector_size(32), aligned(8), may_alias));
+
+/// All bits for the first elements and none for the others, from index 8 - n on for n of eight.
+constexpr std::array<std::int64_t, 16> kFirst = {-1, -1, -1, -1, -1, -1, -1, -1};
+
+/// Returns products of four elements.
+inline Doubles products(const double* a, const double* b) {
+  return *reinterpret_cast<const Doubles*>(a) * *reinterpret_cast<const Doubles*>(b);
+}
+
+inline Doubles masked(const Doubles& a, const std::int64_t* bits) {
+  return reinterpret_cast<Doubles>(reinterpret_cast<Bits>(a) &
+                                   *reinterpret_cast<const Bits*>(bits));
+}
+
+inline double sum_of(const Doubles& low, const Doubles& high) {
+  const Doubles sums = low + high;
+  return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+}
+
 /// Dot product in eight partial sums, which run in parallel and give the same bits on any
-/// processor.
+/// processor. Up to seven elements after the last are read, and not used.
+inline double padded_dot(const double* a, const double* b, std::size_t count) {
+  Doubles low{}, high{};
+  const std::size_t whole = count / 8 * 8;
+  for (std::size_t i = 0; i < whole; i += 8) {
+    low += products(a + i, b + i);
+    high += products(a + i + 4, b + i + 4);
+  }
+  if (const std::size_t rest = count - whole; rest > 0) {
+    low += masked(products(a + whole, b + whole), &kFirst[8 - rest]);
+    high += masked(products(a + whole + 4, b + whole + 4), &kFirst[12 - rest]);
+  }
+  return sum_of(low, high);
+}
+
+/// As padded_dot(), without reading beyond the end.
 double dot(std::span<const double> a, std::span<const double> b) {
-  std::array<double, 8> sums{};
+  Doubles low{}, high{};
   const std::size_t whole = a.size() / 8 * 8;
-  for (std::size_t i = 0; i < whole; i += 8)
-    for (std::size_t k = 0; k < 8; ++k) sums[k] += a[i + k] * b[i + k];
-  for (std::size_t i = whole; i < a.size(); ++i) sums[i - whole] += a[i] * b[i];
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+  for (std::size_t i = 0; i < whole; i += 8) {
+    low += products(&a[i], &b[i]);
+    high += products(&a[i + 4], &b[i + 4]);
+  }
+  for (std::size_t i = whole; i < a.size(); ++i) {
+    const std::size_t k = i - whole;
+    (k < 4 ? low : high)[k % 4] += a[i] * b[i];
+  }
+  return sum_of(low, high);
 }
 
 }  // namespace
 
 void Envelope::factor(std::uint32_t from) {
-  for (std::uint32_t i = from; i < rows(); ++i) {
-    for (std::uint32_t j = first[i]; j <= i; ++j) {
-      const std::uint32_t both = std::min(j, std::max(first[i], first[j]));
-      const double sum = at(i, j) - dot(row(i, both, j), row(j, both, j));
-      at(i, j) = j < i ? sum / at(j, j) : std::sqrt(std::max(sum, 1e-12 * at(i, i)));
+  std::vector<std::uint32_t> end(rows(), 0);  // row after the last one that has a column
+  for (std::uint32_t i = 0; i < rows(); ++i) end[first[i]] = i + 1;
+  for (std::uint32_t j = 1; j < rows(); ++j) end[j] = std::max(end[j], end[j - 1]);
+  // Column by column: the products of one column do not wait for each other.
+  for (std::uint32_t j = 0; j < rows(); ++j) {
+    const double* row_j = &entries[start[j]];
+    if (j >= from) {
+      const double sum = at(j, j) - padded_dot(row_j, row_j, j - first[j]);
+      at(j, j) = std::sqrt(std::max(sum, 1e-12 * at(j, j)));
+    }
+    const double diagonal = at(j, j);
+    for (std::uint32_t i = std::max(from, j + 1); i < end[j]; ++i) {
+      if (first[i] > j) continue;
+      const std::uint32_t both = std::max(first[i], first[j]);
+      double* row_i = &entries[start[i]];
+      double& entry = row_i[j - first[i]];
+      entry = (entry - padded_dot(row_i + (both - first[i]), row_j + (both - first[j]), j - both)) /
+              diagonal;
     }
   }
 }

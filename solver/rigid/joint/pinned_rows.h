@@ -12,10 +12,12 @@ namespace sunder::solver {
 /// A symmetric positive definite matrix in envelope storage: row i begins at column first[i], and
 /// the factor L of L·Lᵀ has the same envelope.
 struct Envelope {
+  static constexpr std::size_t kPadding = 8;  ///< Unused entries at the end, for wide reads.
+
   std::vector<std::uint32_t> first;  ///< Column of each row's first entry.
   /// Index of each row's first entry; one more than there are rows.
   std::vector<std::uint32_t> start;
-  std::vector<double> entries;
+  std::vector<double> entries;  ///< Those of all rows, and the padding.
 
   std::uint32_t rows() const { return static_cast<std::uint32_t>(first.size()); }
   double& at(std::uint32_t row, std::uint32_t column) {
