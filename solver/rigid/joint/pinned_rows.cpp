@@ -93,16 +93,23 @@ void Envelope::solve(std::span<double> x) const {
     x[i] = (x[i] - dot(row(i, first[i], i), x.subspan(first[i], i - first[i]))) / at(i, i);
   }
   for (std::uint32_t i = rows(); i-- > 0;) {
-    x[i] /= at(i, i);
-    for (std::uint32_t k = first[i]; k < i; ++k) x[k] -= at(i, k) * x[i];
+    const double* row_i = &entries[start[i]];
+    double* above = &x[first[i]];
+    const std::uint32_t count = i - first[i];
+    const double at_i = x[i] / row_i[count];
+    x[i] = at_i;
+    for (std::uint32_t k = 0; k < count; ++k) above[k] -= row_i[k] * at_i;
   }
 }
 
 std::vector<double> Envelope::times(std::span<const double> x) const {
   std::vector<double> product(rows(), 0);
   for (std::uint32_t i = 0; i < rows(); ++i) {
-    for (std::uint32_t k = first[i]; k < i; ++k) product[k] += at(i, k) * x[i];
-    product[i] += dot(row(i, first[i], i + 1), x.subspan(first[i], i + 1 - first[i]));
+    const double* row_i = &entries[start[i]];
+    double* above = &product[first[i]];
+    const std::uint32_t count = i - first[i];
+    for (std::uint32_t k = 0; k < count; ++k) above[k] += row_i[k] * x[i];
+    product[i] += dot(row(i, first[i], i + 1), x.subspan(first[i], count + 1));
   }
   return product;
 }
@@ -151,9 +158,12 @@ void PinnedRows::factor(const Envelope& response) {
   }
   factored_free_.clear();
   for (const RowBounds& row : bounds) factored_free_.push_back(row.pin == 0);
-  for (std::uint32_t i = from; i < response.rows(); ++i) {
-    for (std::uint32_t k = response.first[i]; k <= i; ++k)
-      if (!factored_free_[i] || !factored_free_[k]) factored_.at(i, k) = i == k;
+  for (std::uint32_t i = 0; i < response.rows(); ++i) {
+    if (factored_free_[i]) continue;
+    for (std::uint32_t k = std::max(from, i + 1); k < response.rows(); ++k)
+      if (response.first[k] <= i) factored_.at(k, i) = 0;
+    if (i < from) continue;
+    for (std::uint32_t k = response.first[i]; k <= i; ++k) factored_.at(i, k) = i == k;
   }
   factored_.factor(from);
 }
