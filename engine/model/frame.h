@@ -89,6 +89,7 @@ struct FrameBody {
   std::uint64_t previous_key = 0;
   /// Index in Frame::names of the solid, ball or shot that this came from.
   std::uint32_t name = kNoName;
+  double mass_kg = 0;  ///< 0 in frames from a recording.
 };
 
 /// A mesh drawn on a body: world = X_WB * (X_RT * (origin_T + position) − com_R).

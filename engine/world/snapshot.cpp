@@ -22,7 +22,8 @@ FrameBody body_of(const Actor& actor, const BodyState& state) {
           actor.is_static,
           state.asleep,
           actor.last_frame_key,
-          actor.name};
+          actor.name,
+          actor.weight.mass_kg};
 }
 
 void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {

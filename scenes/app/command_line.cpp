@@ -35,6 +35,9 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.app->add_option(
       "--verify", command.options->verify,
       "A recording of the same run; fail at the first frame whose state differs");
+  command.app->add_option("--events", command.options->events,
+                          "Write breaks, and bodies that appear, disappear, sleep and wake, as a "
+                          "line of JSON each");
   command.app->add_option("--trace", command.options->trace,
                           "Write a trace of all threads, for ui.perfetto.dev");
   command.app->add_flag("--count-threads", command.options->count_threads,
@@ -42,6 +45,7 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.reads("SCENE", command.options->scene);
   command.reads("--verify", command.options->verify);
   command.writes("--take", command.options->take);
+  command.writes("--events", command.options->events);
   command.writes("--trace", command.options->trace);
   command.add_frames();
   command.add_changes();

@@ -47,6 +47,7 @@ struct SimulateOptions : CommonOptions {
   int frames = -1;             ///< Index of the last frame; -1: to the end of the scene.
   std::string take;            ///< File to record to; empty: none.
   std::string verify;          ///< Recording to compare with; empty: none.
+  std::string events;          ///< File for a line of JSON for each event; empty: none.
   std::string trace;           ///< File for spans of all threads; empty: none.
   bool count_threads = false;  ///< Report what more threads would take.
 };

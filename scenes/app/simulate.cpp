@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/io/bytes.h"
+#include "engine/io/event_log.h"
 #include "engine/io/recording/recording.h"
 #include "engine/io/recording/recording_verifier.h"
 #include "engine/io/statistics.h"
@@ -38,6 +39,8 @@ int simulate(const SimulateOptions& options) {
   }
   std::optional<RecordingWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
+  std::optional<EventLog> events;
+  if (!options.events.empty()) sinks.push_back(&events.emplace(options.events));
   if (!options.trace.empty()) start_trace();
   const int exit_code = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
@@ -49,6 +52,9 @@ int simulate(const SimulateOptions& options) {
   options.print(statistics.table() + "state hash " + hash.hex() + "\n");
   options.write_json(statistics.json(hash.hex(), /*per_frame=*/true));
   if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
+  if (events)
+    options.print("wrote " + options.events + ", " + std::to_string(events->events()) +
+                  " events\n");
   if (exit_code != 0 || !verifier) return exit_code;
   const std::string same = std::to_string(verifier->same());
   if (verifier->difference().empty()) {

@@ -15,7 +15,7 @@ namespace sunder::scenes {
 struct Preset {
   std::string_view name;
   Accuracy accuracy;
-  int sweeps;                                  ///< Sweeps of the solver in a substep.
+  int sweeps;                 ///< Sweeps of the solver in a substep.
   std::uint32_t full_detail;  ///< As in Limits, as chip_size_factor.
   double chip_size_factor;
   std::string_view help;

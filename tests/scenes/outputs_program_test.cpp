@@ -48,7 +48,7 @@ TEST_F(Outputs, ThatAreInputsAreRefused) {
   const std::string simulate = "simulate " + scene_ + " --quiet ";
   for (const std::string& output : {scene_, folder_ / "link.toml", folder_ / "hard.toml",
                                     folder_ / "sub/../in.toml", folder_ / "./in.toml"}) {
-    for (const char* option : {"--take ", "--json ", "--trace "})
+    for (const char* option : {"--take ", "--json ", "--trace ", "--events "})
       expect_refused(simulate + option + output, scene_);
   }
   expect_refused("check " + scene_ + " --json " + scene_, scene_);
@@ -80,7 +80,7 @@ TEST_F(Outputs, WithOneNameAreRefused) {
 }
 
 TEST_F(Outputs, ThatAreDevicesStayDevices) {
-  for (const char* option : {"--json ", "--trace "}) {
+  for (const char* option : {"--json ", "--trace ", "--events "}) {
     const Outcome outcome = sunder("simulate " + scene_ + " --quiet " + option + "/dev/full");
     EXPECT_EQ(outcome.exit_code, 1) << option;
     EXPECT_NE(outcome.err.find("/dev/full"), std::string::npos) << outcome.err;
