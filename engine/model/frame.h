@@ -218,6 +218,7 @@ struct Frame {
   View view;
   std::shared_ptr<const std::vector<Material>> materials;
   std::shared_ptr<const std::vector<Appearance>> appearances;  ///< Null if there are none.
+  /// Those that neither this frame nor the one before draws may be null.
   std::shared_ptr<const MeshStore> meshes;
   /// Names of the scene's solids, balls and shots; the same in all frames. Null if unknown.
   std::shared_ptr<const std::vector<std::string>> names;

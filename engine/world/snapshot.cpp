@@ -106,7 +106,7 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   frame->materials = world.materials;
   frame->names = world.names;
   frame->appearances = world.appearances;
-  frame->meshes = world.meshes.publish();
+  frame->meshes = world.meshes.publish(world.actors, world.landscape.meshes);
   frame->report = std::exchange(log.report, {});
   FrameReport& report = frame->report;
   add_bodies(world, *frame);

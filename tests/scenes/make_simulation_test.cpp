@@ -115,6 +115,23 @@ TEST(MakeSimulation, SmallPiecesAreBodiesOnlyAboveTheFactorOnTheirSize) {
   EXPECT_THROW(check_scene(struck_wall("piece_size_factor = 50\n")), InputError);
 }
 
+TEST(MakeSimulation, MeshesThatNoFrameDrawsAreFreed) {
+  const auto simulation = make_simulation(load_scene("house", {"draft", {"scene.duration_s=4"}}));
+  FramePtr before, last;
+  while (const FramePtr frame = simulation->next()) {
+    for (const FramePtr& drawn : {before, frame}) {
+      if (!drawn) continue;
+      for (const Instance& instance : drawn->instances)
+        ASSERT_TRUE((*frame->meshes)[instance.mesh.value]) << frame->time_s;
+    }
+    before = last = frame;
+  }
+  const auto freed = std::ranges::count(*last->meshes, nullptr);
+  EXPECT_GT(freed, 1000);
+  EXPECT_LT(last->meshes->size() - static_cast<std::size_t>(freed),
+            2 * last->instances.size() + 2000);
+}
+
 TEST(MakeSimulation, TheSmallestPieceGrowsWithTheBodiesAwakeAboveFullDetail) {
   const FramePtr all = end_of(struck_wall()), many = end_of(struck_wall("full_detail = 100000\n")),
                  few = end_of(struck_wall("full_detail = 1\n"));

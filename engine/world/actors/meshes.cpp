@@ -8,18 +8,47 @@
 
 namespace sunder {
 
+MeshStore& Meshes::changeable() {
+  if (std::exchange(published_, false)) store_ = std::make_shared<MeshStore>(*store_);
+  return *store_;
+}
+
 MeshIndex Meshes::add(std::shared_ptr<const Mesh> mesh) {
-  if (published_) {
-    store_ = std::make_shared<MeshStore>(*store_);
-    published_ = false;
-  }
-  store_->push_back(std::move(mesh));
+  changeable().push_back(std::move(mesh));
+  ++kept_;
   return MeshIndex(store_->size() - 1);
 }
 
-std::shared_ptr<const MeshStore> Meshes::publish() {
+std::shared_ptr<const MeshStore> Meshes::publish(const Actors& actors,
+                                                 std::span<const MeshIndex> others) {
+  if (kept_ > most_) free_unused(actors, others);
   published_ = true;
   return store_;
+}
+
+/// Frees the meshes that are unused now and were at the last search, one frame ago: searches come
+/// in pairs. So the meshes of a frame live in the frame after it, between which a renderer
+/// interpolates.
+void Meshes::free_unused(const Actors& actors, std::span<const MeshIndex> others) {
+  constexpr std::size_t kFewest = 1024;
+  std::vector<std::uint8_t> used(store_->size(), 0);
+  const auto use = [&](MeshIndex mesh) {
+    if (!mesh.none() && mesh != kMeshPending) used[mesh.value] = 1;
+  };
+  for (const Actor& actor : actors) std::ranges::for_each(actor.meshes, use);
+  std::ranges::for_each(others, use);
+  unused_.resize(store_->size(), 0);
+  MeshStore& store = changeable();
+  for (std::size_t i = 0; i < store.size(); ++i) {
+    if (!store[i]) continue;
+    if (used[i] == 0 && unused_[i] != 0) {
+      store[i] = nullptr;
+      --kept_;
+    }
+    unused_[i] = 1 - used[i];
+  }
+  searched_ = !searched_;
+  if (!searched_) most_ = 2 * kept_ + kFewest;
 }
 
 void Meshes::add_to(std::span<Actor> actors, const DrawnConvexes& old) {

@@ -32,10 +32,14 @@ class Meshes {
   void hide(Actor& actor, ConvexSlot slot) { actor.meshes[slot.value] = {}; }
   /// Makes the requested meshes.
   void draw(Actors& actors);
-  /// Returns all meshes for a frame; they do not change afterwards.
-  std::shared_ptr<const MeshStore> publish();
+  /// Returns all meshes for a frame, which do not change afterwards. Those that neither this frame
+  /// nor the one before draws, on `actors` or as `others`, may be null, to free memory.
+  std::shared_ptr<const MeshStore> publish(const Actors& actors, std::span<const MeshIndex> others);
 
  private:
+  MeshStore& changeable();
+  void free_unused(const Actors& actors, std::span<const MeshIndex> others);
+
   /// A convex whose mesh has been requested.
   struct Pending {
     std::uint32_t key = 0;
@@ -44,8 +48,12 @@ class Meshes {
   };
 
   std::shared_ptr<MeshStore> store_ = std::make_shared<MeshStore>();
-  bool published_ = false;        ///< A frame shares the store: copy before a change.
-  std::vector<Pending> pending_;  ///< Requests since the last draw().
+  bool searched_ = false;             ///< True after the first search of a pair.
+  std::vector<std::uint8_t> unused_;  ///< 1 for each mesh that the last search found unused.
+  std::size_t kept_ = 0;              ///< Meshes that are not null.
+  std::size_t most_ = 0;              ///< Number of them from which unused ones are sought.
+  bool published_ = false;            ///< A frame shares the store: copy before a change.
+  std::vector<Pending> pending_;      ///< Requests since the last draw().
 };
 
 }  // namespace sunder
