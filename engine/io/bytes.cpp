@@ -52,6 +52,15 @@ void replace_file(const std::filesystem::path& temporary, const std::filesystem:
   throw FileError(path.string() + ": cannot be written: " + error.message());
 }
 
+std::ofstream create_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  std::ofstream out(path, std::ios::binary);
+  if (!out)
+    throw FileError(path.string() + ": cannot be written; check the folder and its permissions");
+  return out;
+}
+
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const bool direct = is_device(path);
   const std::filesystem::path file = direct ? path : temporary_name(path);

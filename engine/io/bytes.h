@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
@@ -127,6 +128,8 @@ bool is_device(const std::filesystem::path& path);
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 /// Renames a complete file to its path; on failure removes it and throws FileError.
 void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
+/// Creates a file to be written in parts, and its folder; throws FileError on failure.
+std::ofstream create_file(const std::filesystem::path& path);
 /// Writes a file under a temporary name and renames it; writes to a device or pipe directly.
 /// Creates the folder. Throws FileError on failure.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/check.h"
+#include "engine/io/bytes.h"
 
 namespace sunder {
 namespace {
@@ -46,13 +47,7 @@ Json event_of(const Frame& frame, const BreakEvent& at) {
 
 }  // namespace
 
-EventLog::EventLog(const std::filesystem::path& path) : path_(path) {
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  out_.open(path, std::ios::binary);
-  if (!out_)
-    throw FileError(path.string() + ": cannot be written; check the folder and its permissions");
-}
+EventLog::EventLog(const std::filesystem::path& path) : path_(path), out_(create_file(path)) {}
 
 void EventLog::take(const FramePtr& frame) {
   std::string lines;

@@ -54,15 +54,11 @@ class RecordingWriter::Recording {
   std::thread thread_;
 };
 
-RecordingWriter::Recording::Recording(const std::filesystem::path& path) : path_(path) {
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  out_.open(path, std::ios::binary);
+RecordingWriter::Recording::Recording(const std::filesystem::path& path)
+    : path_(path), out_(create_file(path)) {
   out_.write(kRecordingMagic, sizeof kRecordingMagic);
   out_.flush();
-  if (!out_) {
-    throw FileError(path.string() + ": cannot be written; check the folder and its permissions");
-  }
+  if (!out_) throw FileError(path.string() + ": cannot be written; is the disk full?");
   offset_ = sizeof kRecordingMagic;
   thread_ = std::thread([this] { write_queued(); });
 }
