@@ -228,12 +228,10 @@ TEST(Repair, UnconnectedSheetsAreEnclosed) {
 /// Returns a prism over an outline in x and y from z = 0 to 1.
 PolygonMesh prism_over(const std::vector<Vec2>& outline) {
   const auto count = static_cast<std::uint32_t>(outline.size());
-  RawMesh raw;
-  for (const double z : {0.0, 1.0}) {
-    for (const Vec2& p : outline) raw.vertices.emplace_back(p.x(), p.y(), z);
-  }
   PolygonMesh mesh;
-  mesh.vertices = raw.vertices;
+  for (const double z : {0.0, 1.0}) {
+    for (const Vec2& p : outline) mesh.vertices.emplace_back(p.x(), p.y(), z);
+  }
   const auto add = [&](const std::vector<std::uint32_t>& corners, const Vec3& normal) {
     PolygonMesh::Face face;
     face.plane = Plane::through(mesh.vertices[corners[0]], normal);
@@ -257,12 +255,14 @@ PolygonMesh prism_over(const std::vector<Vec2>& outline) {
   return mesh;
 }
 
+/// A square of area 2 on its corner, and, beyond the crossing, one of area 0.5 that winds
+/// backwards.
+const std::vector<Vec2> kBowTie = {{-2, 0}, {-1, -1}, {0.5, 0.5}, {1, 0}, {0.5, -0.5}, {-1, 1}};
+
 TEST(InsideOut, VolumeIsThatOfTheLobesThatWindBackwards) {
   EXPECT_EQ(inside_out_volume(prism_over({{0, 0}, {1, 0}, {1, 1}, {0, 1}})), 0);
   EXPECT_NEAR(inside_out_volume(prism_over({{0, 0}, {0, 1}, {1, 1}, {1, 0}})), 1, 1e-12);
-  // A bow tie: a square of area 2 over its corner, and beyond the crossing one of area 0.5.
-  const std::vector<Vec2> bow_tie = {{-2, 0}, {-1, -1}, {0.5, 0.5}, {1, 0}, {0.5, -0.5}, {-1, 1}};
-  EXPECT_NEAR(inside_out_volume(prism_over(bow_tie)), 0.5, 0.01);
+  EXPECT_NEAR(inside_out_volume(prism_over(kBowTie)), 0.5, 0.01);
   // Backwards twice where the contour goes around twice.
   EXPECT_NEAR(inside_out_volume(
                   prism_over({{0, 0}, {0, 2}, {1, 2}, {1, 0}, {0, 0}, {0, 2}, {1, 2}, {1, 0}})),
@@ -276,8 +276,7 @@ TEST(InsideOut, VolumeIsThatOfTheLobesThatWindBackwards) {
 }
 
 TEST(InsideOut, VolumeIsTheSameFromAnyDirection) {
-  const std::vector<Vec2> bow_tie = {{-2, 0}, {-1, -1}, {0.5, 0.5}, {1, 0}, {0.5, -0.5}, {-1, 1}};
-  PolygonMesh mesh = prism_over(bow_tie);
+  PolygonMesh mesh = prism_over(kBowTie);
   for (int turn = 0; turn < 20; ++turn) {
     const Mat3 by =
         Eigen::AngleAxisd(0.37 * turn, Vec3(1, 0.3 * turn, 2).normalized()).toRotationMatrix();
@@ -289,8 +288,7 @@ TEST(InsideOut, VolumeIsTheSameFromAnyDirection) {
 }
 
 TEST(Repair, AMeshThatIsInsideOutInPartIsEnclosed) {
-  const std::vector<Vec2> bow_tie = {{-2, 0}, {-1, -1}, {0.5, 0.5}, {1, 0}, {0.5, -0.5}, {-1, 1}};
-  const PolygonMesh prism = prism_over(bow_tie);
+  const PolygonMesh prism = prism_over(kBowTie);
   RawMesh raw;
   raw.vertices = prism.vertices;
   for (std::size_t c = 0; c < prism.contours.size(); ++c) {
