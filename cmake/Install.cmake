@@ -11,6 +11,7 @@ set(public_headers
   engine/geometry/convex_polyhedron.h
   engine/io/statistics.h
   engine/io/recording/recording.h
+  engine/model/collision_filter.h
   engine/model/compound.h
   engine/model/energy.h
   engine/model/frame.h
@@ -20,6 +21,7 @@ set(public_headers
   engine/model/path.h
   engine/model/scene.h
   engine/model/work.h
+  engine/world/world.h
   render/image/image.h
   render/renderer.h
   render/sinks.h

@@ -144,11 +144,11 @@ std::vector<std::string> warnings_of(const Scene& scene) {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options) {
+World make_world(Scene scene, const SimulationOptions& options) {
   if (options.threads < 0)
     throw InputError("options.threads is " + std::to_string(options.threads) +
                      "; expected a number of threads, or 0 to leave it unchanged");
-  if (options.threads > 0) set_threads(options.threads);
+  const ThreadScope scope(options.threads);
   check_scene(scene);
   coarsen(scene);
   const std::string name = scene.name.empty() ? "the scene" : scene.name;
@@ -159,11 +159,15 @@ std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOption
   std::unique_ptr<Particles> particles = make_particles(scene);
   std::unique_ptr<Physics> physics = make_physics(scene);
   auto breaker = fracture::make_pattern_breaker(failure_log(scene, options));
-  auto simulation = std::make_unique<Simulation>(std::move(scene), std::move(physics),
-                                                 std::move(breaker), std::move(particles));
-  if (options.inspect) simulation->inspect();
-  if (options.count_loops) simulation->count_loops();
-  return simulation;
+  World world(std::move(scene), std::move(physics), std::move(breaker), std::move(particles));
+  world.set_threads(options.threads);
+  if (options.inspect) world.inspect();
+  if (options.count_loops) world.count_loops();
+  return world;
+}
+
+std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options) {
+  return std::make_unique<Simulation>(make_world(std::move(scene), options));
 }
 
 RunInfo run_info(const Scene& scene, const std::string& preset) {

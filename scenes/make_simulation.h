@@ -1,4 +1,4 @@
-// Makes simulations of scenes, with the program's solver, fracture, debris and dust.
+// Makes worlds and simulations of scenes, with the program's solver, fracture, debris and dust.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 #include "engine/io/statistics.h"
 #include "engine/model/frame.h"
 #include "engine/model/scene.h"
+#include "engine/world/world.h"
 
 namespace sunder::scenes {
 
 struct SimulationOptions {
-  int threads =
-      0;  ///< Threads of the process from now on; 0: unchanged, initially one a processor.
+  int threads = 0;  ///< Threads of the simulation; 0: as many as the process has set.
   /// Folder for case files of breaks whose parts do not sum to the volume before, for
   /// `sunder fracture`; empty: none are written.
   std::filesystem::path cases_folder = {};
@@ -26,6 +26,9 @@ struct SimulationOptions {
   bool count_loops = false;
 };
 
+/// Returns a world that the caller advances. Throws InputError for a planar scene that needs a
+/// third dimension.
+World make_world(Scene scene, const SimulationOptions& options = {});
 /// Returns a source of frames: frame 0 is the scene as given, then one every 1/60 s until the
 /// scene's duration has passed. Frames are bit-identical for any number of threads. Throws
 /// InputError for a planar scene that needs a third dimension.

@@ -11,7 +11,8 @@
 namespace sunder {
 namespace {
 
-int thread_count = 0;               // process-wide; 0 until set
+std::atomic<int> thread_count = 0;  // process-wide; 0 until set
+thread_local int own_count = 0;     // of a ThreadScope; 0: none
 thread_local bool is_busy = false;  // in a parallel loop: nested loops are serial
 
 /// Yields the core to its other hardware thread in a spin loop.
@@ -105,9 +106,16 @@ ThreadTeam& team() {
 void set_threads(int count) { thread_count = count > 0 ? count : omp_get_num_procs(); }
 
 int threads() {
+  if (own_count > 0) return own_count;
   if (thread_count == 0) set_threads(0);
   return thread_count;
 }
+
+ThreadScope::ThreadScope(int count) : before_(own_count) {
+  if (count > 0) own_count = count;
+}
+
+ThreadScope::~ThreadScope() { own_count = before_; }
 
 bool can_run_parallel() { return !is_busy && threads() > 1; }
 

@@ -14,10 +14,24 @@
 
 namespace sunder {
 
-/// Sets the number of threads of all later parallel loops; 0 means one per processor.
+/// Sets the number of threads of all later parallel loops of the process; 0 means one per
+/// processor.
 void set_threads(int count);
-/// Returns the number of threads of parallel loops.
+/// Returns the number of threads of parallel loops that this thread starts.
 int threads();
+
+/// While it exists, loops that its thread starts have this number of threads; 0 changes nothing.
+class ThreadScope {
+ public:
+  explicit ThreadScope(int count);
+  ~ThreadScope();
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+ private:
+  int before_;
+};
+
 /// Returns true if other threads could take part in a loop that this thread starts now.
 bool can_run_parallel();
 

@@ -191,7 +191,7 @@ std::vector<Facet> make_facets(const GroundMesh& ground) {
     std::vector<std::uint32_t> near;
     for (std::size_t t = begin; t < end; ++t) {
       const double depth_m = depth_of(surface, tree, t, max_depth_m, near);
-      facets[t] = {prism_behind(surface, t, depth_m), bends[t]};
+      facets[t] = {prism_behind(surface, t, depth_m), bends[t], ground.material};
     }
   });
   return facets;

@@ -13,6 +13,7 @@ namespace sunder {
 struct Facet {
   ConvexPolyhedron prism;  ///< In W.
   EdgeAngles bends;
+  MaterialIndex material;
 };
 
 /// Returns one facet per triangle, in order. The depth follows from the surface's size and edge

@@ -180,7 +180,7 @@ struct FrameReport {
   double stage_ms[kStages] = {};  ///< Wall time, summed over the frame's steps.
   /// Processor time of all threads, summed over the frame's steps.
   double stage_cpu_ms[kStages] = {};
-  /// Parallel loops, if Simulation::count_loops() was called; summed over the frame's steps, not
+  /// Parallel loops, if World::count_loops() was called; summed over the frame's steps, not
   /// stored in recordings.
   std::array<LoopTimes, kStages> stage_loops;
   std::vector<WorkItem> work;  ///< Parts of stages, summed over the frame's steps.

@@ -30,6 +30,7 @@
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/model/body_states.h"
+#include "engine/model/collision_filter.h"
 #include "engine/model/energy.h"
 #include "engine/model/impact_probe.h"
 #include "engine/model/joint.h"
@@ -75,7 +76,8 @@ struct BodyDesc {
   double mass_kg = 0;             ///< > 0 unless static.
   Mat3 inertia_B = Mat3::Zero();  ///< kg·m², about the centre of mass; unless static.
   std::vector<ShapeDesc> shapes;
-  std::uint32_t tag = 0;      ///< Not read by the solver; returned with contacts.
+  std::uint32_t tag = 0;  ///< Not read by the solver; returned with contacts.
+  CollisionFilter filter;
   bool reports_load = false;  ///< True: contact_impulses() and joint_impulses() include this body.
 };
 
@@ -187,7 +189,7 @@ struct SolveReport {
   LimitsHit limits;
 };
 
-/// A contact point that carries load, for debug views.
+/// A contact point that carries load.
 struct ContactForce {
   std::uint32_t body_tag_a = 0, body_tag_b = 0;
   Vec3 point_W = Vec3::Zero();
@@ -202,9 +204,25 @@ struct ShapeBox {
 
 /// Internal state of the solver, for debug views.
 struct PhysicsInspection {
-  /// Sorted by a key that does not depend on the number of threads.
-  std::vector<ContactForce> contact_forces;
   std::vector<ShapeBox> boxes;  ///< Sorted by a key that does not depend on the number of threads.
+};
+
+/// A shape that a query may meet.
+struct ShapeId {
+  std::uint32_t body_tag = 0, shape_tag = 0;
+
+  auto operator<=>(const ShapeId&) const = default;
+};
+
+/// Receives the shapes that a query may meet.
+class ShapeVisitor {
+ public:
+  /// Called with a shape, which may come more than once; returns how far along the ray the query
+  /// goes on, at most `reach_m`.
+  virtual double visit(const ShapeId& shape, double reach_m) = 0;
+
+ protected:
+  ~ShapeVisitor() = default;
 };
 
 /// Interface of a rigid-body solver. Implemented by solver/rigid and solver/planar.
@@ -277,6 +295,20 @@ class Physics {
   virtual std::vector<PlasticFlow> plastic_flows() const { return {}; }
   /// Returns the penetrations (m, >= 0) of contact points that carry load, unordered; statistics.
   virtual std::vector<float> penetrations() const = 0;
+  /// Returns the contact points that carry load, sorted by a key that does not depend on the number
+  /// of threads.
+  virtual std::vector<ContactForce> contact_forces() const { return {}; }
+  /// Visits the shapes whose boxes a ball of `radius_m` (maybe 0) meets on its way from `from_W`
+  /// along the unit vector `direction_W` up to `reach_m`, in their present poses, near ones first
+  /// by and large; half-spaces always. Does not change what any other call returns.
+  virtual void visit_on_ray(const Vec3& /*from_W*/, const Vec3& /*direction_W*/, double /*reach_m*/,
+                            double /*radius_m*/, ShapeVisitor& /*visitor*/) {
+    throw InputError("this solver answers no ray casts");
+  }
+  /// Visits the shapes whose boxes overlap a box, in their present poses; half-spaces always.
+  virtual void visit_in_box(const Box& /*box_W*/, ShapeVisitor& /*visitor*/) {
+    throw InputError("this solver answers no overlap queries");
+  }
   /// Returns the current internal state; called for debug views only.
   virtual PhysicsInspection inspect() const { return {}; }
   /// Returns the work counted since the last call.

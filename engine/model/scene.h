@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model/collision_filter.h"
 #include "engine/model/compound.h"
 #include "engine/model/frame.h"
 #include "engine/model/joint.h"
@@ -26,6 +27,9 @@ struct Solid {
   Pose X_WR;
   Vec3 velocity_W = Vec3::Zero();
   Vec3 angular_velocity_W = Vec3::Zero();
+  CollisionFilter filter = {};  ///< Pieces inherit it.
+  /// A number of the caller's, which pieces inherit.
+  std::uint64_t user_data = 0;
 };
 
 struct Ball {
@@ -34,6 +38,8 @@ struct Ball {
   MaterialIndex material;
   Vec3 center_W = Vec3::Zero();
   Vec3 velocity_W = Vec3::Zero();
+  CollisionFilter filter = {};
+  std::uint64_t user_data = 0;
 };
 
 inline double ball_volume_m3(double radius_m) {

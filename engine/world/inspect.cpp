@@ -10,7 +10,7 @@ namespace sunder {
 namespace {
 
 /// Returns the island of each actor: movable bodies connected by contact forces or joints.
-std::vector<std::uint32_t> islands(const World& world,
+std::vector<std::uint32_t> islands(const WorldState& world,
                                    const std::vector<ContactForce>& contact_forces) {
   DisjointSets sets(world.actors.size());
   const auto join = [&](std::uint32_t key_a, std::uint32_t key_b) {
@@ -25,7 +25,7 @@ std::vector<std::uint32_t> islands(const World& world,
 }
 
 /// Returns the stresses of an actor by slot; empty if load cannot break it.
-std::vector<float> stresses_of(const World& world, const Breaker& breaker, const Actor& actor,
+std::vector<float> stresses_of(const WorldState& world, const Breaker& breaker, const Actor& actor,
                                const Quat& rotation_WB) {
   const StressState& stress = actor.stress;
   if (!stress.breakable) return {};
@@ -37,7 +37,7 @@ std::vector<float> stresses_of(const World& world, const Breaker& breaker, const
 }
 
 /// Returns stresses in the order of the frame's instances.
-std::vector<float> stresses(const World& world, const Breaker& breaker, const Frame& frame) {
+std::vector<float> stresses(const WorldState& world, const Breaker& breaker, const Frame& frame) {
   std::vector<std::vector<float>> by_actor(world.actors.size());
   for_chunks(by_actor.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {
     by_actor[i] = stresses_of(world, breaker, world.actors[i], frame.bodies[i].X_WB.rotation);
@@ -55,11 +55,12 @@ std::vector<float> stresses(const World& world, const Breaker& breaker, const Fr
 
 }  // namespace
 
-std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& breaker,
+std::shared_ptr<const Inspection> inspect(const WorldState& world, const Breaker& breaker,
                                           const Frame& frame) {
   const PhysicsInspection physics = world.physics->inspect();
+  const std::vector<ContactForce> contact_forces = world.physics->contact_forces();
   auto seen = std::make_shared<Inspection>();
-  for (const ContactForce& press : physics.contact_forces) {
+  for (const ContactForce& press : contact_forces) {
     seen->contacts.push_back({press.point_W.cast<float>(), press.force_W.cast<float>(),
                               press.body_tag_a, press.body_tag_b});
   }
@@ -69,7 +70,7 @@ std::shared_ptr<const Inspection> inspect(const World& world, const Breaker& bre
     seen->boxes.push_back({box.box_W.min.cast<float>(), box.box_W.max.cast<float>(),
                            static_cast<std::uint32_t>(world.actors.place_of(*actor))});
   }
-  seen->islands = islands(world, physics.contact_forces);
+  seen->islands = islands(world, contact_forces);
   seen->stresses = stresses(world, breaker, frame);
   // Meshes of the ground come last.
   for (auto i = seen->islands.size(); i < frame.bodies.size(); ++i)

@@ -1,6 +1,4 @@
-// The simulation: advances a scene step by step and returns frames.
-//
-// Read first: Simulation::advance() in simulation.cpp, the list of a step's stages.
+// The simulation: a World that runs by its script, as a source of frames.
 #pragma once
 
 #include <memory>
@@ -10,6 +8,7 @@
 #include "engine/model/particles.h"
 #include "engine/model/physics.h"
 #include "engine/model/scene.h"
+#include "engine/world/world.h"
 
 namespace sunder {
 
@@ -17,23 +16,17 @@ namespace sunder {
 /// for the scene's duration.
 class Simulation final : public FrameSource {
  public:
-  /// Without `particles` there are neither debris nor dust.
+  explicit Simulation(World world) : world_(std::move(world)) {}
   Simulation(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaker,
-             std::unique_ptr<Particles> particles = nullptr);
-  ~Simulation() override;
+             std::unique_ptr<Particles> particles = nullptr)
+      : world_(std::move(scene), std::move(physics), std::move(breaker), std::move(particles)) {}
 
   FramePtr next() override;
-  /// Adds inspections to all later frames (Frame::inspection); the run is unchanged.
-  void inspect();
-  /// Runs all later frames on the thread that calls next(), and reports what their parallel loops
-  /// would take with more threads (FrameReport::stage_loops).
-  void count_loops();
-  /// Advances by one step of the scene's dt.
-  void advance();
+  World& world() { return world_; }
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  World world_;
+  bool started_ = false;  ///< Frame 0 has been returned.
 };
 
 }  // namespace sunder

@@ -26,63 +26,68 @@ FrameBody body_of(const Actor& actor, const BodyState& state) {
           actor.weight.mass_kg};
 }
 
-void count(const World& world, const Actor& actor, const FrameBody& body, FrameReport& report) {
+/// Adds an actor to the sums of a report.
+void count(const WorldState& world, const Actor& actor, const BodyState& state,
+           FrameReport& report) {
   report.mass_kg += actor.weight.mass_kg;
   report.counts.convexes += actor.structure.size();
   if (!actor.structure.empty()) {
     ++report.counts.compounds;
     report.volume_m3 += actor.volume_m3;
   }
-  if (body.is_static) return;
+  if (actor.is_static) return;
   ++report.counts.bodies;
-  if (!body.asleep) ++report.counts.awake;
-  const Vec3 spin_B = body.X_WB.rotation.conjugate() * body.angular_velocity_W;
-  report.kinetic_J += 0.5 * actor.weight.mass_kg * body.velocity_W.squaredNorm() +
+  if (!state.asleep) ++report.counts.awake;
+  const Vec3 spin_B = state.X_WB.rotation.conjugate() * state.angular_velocity_W;
+  report.kinetic_J += 0.5 * actor.weight.mass_kg * state.velocity_W.squaredNorm() +
                       0.5 * spin_B.dot(actor.weight.inertia_R * spin_B);
-  report.potential_J -= actor.weight.mass_kg * world.scene.gravity_W.dot(body.X_WB.position);
+  report.potential_J -= actor.weight.mass_kg * world.scene.gravity_W.dot(state.X_WB.position);
 }
 
-/// Contribution of a chunk of actors to the frame.
-struct Part {
-  std::vector<Instance> instances;
-  FrameReport report;
-};
-
-void add(const Part& part, Frame& frame) {
-  frame.instances.insert(frame.instances.end(), part.instances.begin(), part.instances.end());
-  FrameReport& report = frame.report;
-  report.mass_kg += part.report.mass_kg;
-  report.volume_m3 += part.report.volume_m3;
-  report.kinetic_J += part.report.kinetic_J;
-  report.potential_J += part.report.potential_J;
-  report.counts.convexes += part.report.counts.convexes;
-  report.counts.compounds += part.report.counts.compounds;
-  report.counts.bodies += part.report.counts.bodies;
-  report.counts.awake += part.report.counts.awake;
+void add(const FrameReport& part, FrameReport& report) {
+  report.mass_kg += part.mass_kg;
+  report.volume_m3 += part.volume_m3;
+  report.kinetic_J += part.kinetic_J;
+  report.potential_J += part.potential_J;
+  report.counts.convexes += part.counts.convexes;
+  report.counts.compounds += part.counts.compounds;
+  report.counts.bodies += part.counts.bodies;
+  report.counts.awake += part.counts.awake;
 }
 
-/// Adds all bodies, in parallel, as the work is bound by memory; sums are over fixed chunks.
-void add_bodies(const World& world, Frame& frame) {
+/// Adds all actors to the sums of a report, in parallel, as the work is bound by memory; sums are
+/// over fixed chunks.
+void count_all(const WorldState& world, FrameReport& report) {
   const BodyStates states = world.physics->states();
-  const std::size_t count_all = world.actors.size();
-  frame.bodies.resize(count_all);
-  std::vector<Part> parts((count_all + kBodiesAChunk - 1) / kBodiesAChunk);
-  for_chunks(count_all, kBodiesAChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
-    Part& part = parts[c];
+  const std::size_t actors = world.actors.size();
+  std::vector<FrameReport> parts((actors + kBodiesAChunk - 1) / kBodiesAChunk);
+  for_chunks(actors, kBodiesAChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
+    for (std::size_t i = begin; i < end; ++i)
+      count(world, world.actors[i], states[world.actors[i].body], parts[c]);
+  });
+  for (const FrameReport& part : parts) add(part, report);
+}
+
+void add_bodies(const WorldState& world, Frame& frame) {
+  const BodyStates states = world.physics->states();
+  const std::size_t actors = world.actors.size();
+  frame.bodies.resize(actors);
+  std::vector<std::vector<Instance>> parts((actors + kBodiesAChunk - 1) / kBodiesAChunk);
+  for_chunks(actors, kBodiesAChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     for (std::size_t i = begin; i < end; ++i) {
       const Actor& actor = world.actors[i];
       frame.bodies[i] = body_of(actor, states[actor.body]);
       for (const MeshIndex mesh : actor.meshes) {
-        if (!mesh.none()) part.instances.push_back({mesh, static_cast<std::uint32_t>(i)});
+        if (!mesh.none()) parts[c].push_back({mesh, static_cast<std::uint32_t>(i)});
       }
-      count(world, actor, frame.bodies[i], part.report);
     }
   });
-  for (const Part& part : parts) add(part, frame);
+  for (const std::vector<Instance>& part : parts)
+    frame.instances.insert(frame.instances.end(), part.begin(), part.end());
 }
 
 /// Adds the ground's meshes, if any, as the last body.
-void add_landscape(const World& world, Frame& frame) {
+void add_landscape(const WorldState& world, Frame& frame) {
   if (world.landscape.meshes.empty()) return;
   const auto index = static_cast<std::uint32_t>(frame.bodies.size());
   FrameBody& body = frame.bodies.emplace_back();
@@ -93,9 +98,20 @@ void add_landscape(const World& world, Frame& frame) {
 
 }  // namespace
 
-std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
-                                std::span<const Shot> shots_to_come, std::uint32_t carried_over) {
+FrameReport end_frame(WorldState& world, double mass_to_come_kg, std::uint32_t carried_over) {
   RunLog& log = world.log;
+  count_all(world, log.report);
+  log.report.mass_kg += log.debris_mass_kg + log.removed_mass_kg + mass_to_come_kg;
+  log.report.carried_over = carried_over;
+  log.report.limits_hit = log.report.limits.sum();
+  log.end_frame(world.clock.frame == 0);
+  for (const WorkItem& item : world.physics->take_work()) log.work_counts.add(item);
+  log.report.work = log.work_counts.take();
+  return std::exchange(log.report, {});
+}
+
+std::shared_ptr<Frame> snapshot(WorldState& world, ParticleStage& particles,
+                                const FrameReport& report) {
   draw_bends(world);
   world.meshes.draw(world.actors);
   auto frame = std::make_shared<Frame>();
@@ -106,24 +122,14 @@ std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
   frame->materials = world.materials;
   frame->names = world.names;
   frame->appearances = world.appearances;
-  frame->meshes = world.meshes.publish(world.actors, world.landscape.meshes);
-  frame->report = std::exchange(log.report, {});
-  FrameReport& report = frame->report;
+  frame->meshes = world.meshes.publish();
+  frame->report = report;
   add_bodies(world, *frame);
   add_landscape(world, *frame);
   for (Actor& actor : world.actors) actor.last_frame_key = actor.key;
   particles.show(*frame);
-  report.mass_kg += log.debris_mass_kg + log.removed_mass_kg;
-  for (const Shot& shot : shots_to_come) {
-    report.mass_kg += ball_mass_kg(shot.ball, *world.materials);
-    for (const Solid& link : shot.links)
-      report.mass_kg += mass_of(link.compound, *world.materials).mass_kg;
-  }
-  report.penetrations_m = world.physics->penetrations();
-  report.carried_over = carried_over;
-  report.limits_hit = report.limits.sum();
-  log.end_frame(report, frame->index == 0);
-  frame->breaks = std::exchange(log.breaks, {});
+  frame->report.penetrations_m = world.physics->penetrations();
+  frame->report.limits_hit = frame->report.limits.sum();
   return frame;
 }
 

@@ -1,20 +1,21 @@
-// Stage `snapshot`: makes a frame of the current state, for the sinks. Internal to engine/world.
+// Stage `snapshot`: the report of a frame, and the frame itself for those who draw or store it.
+// Internal to engine/world.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include "engine/model/frame.h"
-#include "engine/model/scene.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 #include "engine/world/particles/particle_stage.h"
 
 namespace sunder {
 
-/// Returns a new frame, and resets the counts of the current frame in the run log. The
-/// mass of `shots_to_come` is included.
-std::shared_ptr<Frame> snapshot(World& world, ParticleStage& particles,
-                                std::span<const Shot> shots_to_come, std::uint32_t carried_over);
+/// Ends the current frame in the run log and returns its report, without what only a drawn frame
+/// has: particles and penetrations. `mass_to_come_kg` is that of shots to come.
+FrameReport end_frame(WorldState& world, double mass_to_come_kg, std::uint32_t carried_over);
+/// Returns a new frame of the current state, with the report of the last one that ended.
+std::shared_ptr<Frame> snapshot(WorldState& world, ParticleStage& particles,
+                                const FrameReport& report);
 
 }  // namespace sunder

@@ -47,8 +47,9 @@ class PlanarPhysics final : public Physics {
   BodyStates states() const override { return table_.states(); }
   std::vector<ContactImpulse> contact_impulses() const override;
   std::vector<float> penetrations() const override { return find_penetrations(world_, plane_); }
-  PhysicsInspection inspect() const override {
-    return inspect_planar(world_, bodies_.items, plane_, last_h_s_);
+  PhysicsInspection inspect() const override { return inspect_planar(bodies_.items, plane_); }
+  std::vector<ContactForce> contact_forces() const override {
+    return find_contact_forces(world_, bodies_.items, plane_, last_h_s_);
   }
   std::vector<WorkItem> take_work() override { return work_.take(); }
 

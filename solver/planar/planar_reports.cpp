@@ -41,9 +41,9 @@ std::vector<float> find_penetrations(const b2World& world, const Plane2& plane) 
   return depths;
 }
 
-PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBody> bodies,
-                                 const Plane2& plane, double h_s) {
-  PhysicsInspection seen;
+std::vector<ContactForce> find_contact_forces(const b2World& world,
+                                              std::span<const PlanarBody> bodies,
+                                              const Plane2& plane, double h_s) {
   struct Keyed {
     std::uint64_t key_a, key_b;
     ContactForce press;
@@ -68,7 +68,13 @@ PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBod
   // Sorted, because the order of Box2D's contact list is not reproducible.
   std::ranges::stable_sort(contact_forces, {},
                            [](const Keyed& k) { return std::tuple(k.key_a, k.key_b); });
-  for (const Keyed& one : contact_forces) seen.contact_forces.push_back(one.press);
+  std::vector<ContactForce> sorted;
+  for (const Keyed& one : contact_forces) sorted.push_back(one.press);
+  return sorted;
+}
+
+PhysicsInspection inspect_planar(std::span<const PlanarBody> bodies, const Plane2& plane) {
+  PhysicsInspection seen;
   for (const PlanarBody& body : bodies) {
     if (!body.body) continue;
     for (const b2Fixture* f = body.body->GetFixtureList(); f; f = f->GetNext()) {

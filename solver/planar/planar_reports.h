@@ -10,8 +10,12 @@ namespace sunder::solver {
 
 /// Implements Physics::penetrations().
 std::vector<float> find_penetrations(const b2World& world, const Plane2& plane);
-/// Implements Physics::inspect(); `h_s` is the duration of Box2D's last step, 0 before the first.
-PhysicsInspection inspect_planar(const b2World& world, std::span<const PlanarBody> bodies,
-                                 const Plane2& plane, double h_s);
+/// Implements Physics::contact_forces(); `h_s` is the duration of Box2D's last step, 0 before the
+/// first.
+std::vector<ContactForce> find_contact_forces(const b2World& world,
+                                              std::span<const PlanarBody> bodies,
+                                              const Plane2& plane, double h_s);
+/// Implements Physics::inspect().
+PhysicsInspection inspect_planar(std::span<const PlanarBody> bodies, const Plane2& plane);
 
 }  // namespace sunder::solver

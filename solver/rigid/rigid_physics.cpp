@@ -54,6 +54,7 @@ class RigidPhysics final : public Physics {
   std::vector<Touch> touches(std::span<const BodyId> bodies) override;
   std::vector<TouchingBodies> touching(std::span<const BodyId> bodies) override;
   void set_state(BodyId body, const BodyState& state) override {
+    queries_valid_ = false;
     bodies_.set_state(bodies_.slot(body), state);
   }
   void apply_impulse(BodyId body, const Vec3& impulse_W, const Vec3& point_W) override;
@@ -77,10 +78,13 @@ class RigidPhysics final : public Physics {
   std::vector<JointImpulse> joint_impulses() const override { return joints_.loads(bodies_); }
   std::vector<PlasticFlow> plastic_flows() const override { return joints_.flows(); }
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
-  PhysicsInspection inspect() const override {
-    return {find_contact_forces(contacts_, bodies_, last_h_s_),
-            broad_phase_.boxes(shapes_, bodies_)};
+  PhysicsInspection inspect() const override { return {broad_phase_.boxes(shapes_, bodies_)}; }
+  std::vector<ContactForce> contact_forces() const override {
+    return find_contact_forces(contacts_, bodies_, last_h_s_);
   }
+  void visit_on_ray(const Vec3& from_W, const Vec3& direction_W, double reach_m, double radius_m,
+                    ShapeVisitor& visitor) override;
+  void visit_in_box(const Box& box_W, ShapeVisitor& visitor) override;
   std::vector<WorkItem> take_work() override { return work_.take(); }
 
  private:
@@ -92,6 +96,7 @@ class RigidPhysics final : public Physics {
   ContactSolveReport solve_contacts(const StepContext& step);
   Vec3 freeze_broken();
   const ContactsOfBodies& contacts_of_bodies();
+  const std::vector<ShapeSlot>& strays();
   void retest_pairs_of(JointId joint);
 
   RigidOptions options_;
@@ -115,11 +120,14 @@ class RigidPhysics final : public Physics {
   bool skipped_ = false;      ///< Contacts of dense clusters were left out since the last solve.
   ByBody<StepReach> reach_;
   WorkLog work_;
+  std::vector<ShapeSlot> strays_;  ///< See BroadPhase::strays(); of the present poses.
+  bool queries_valid_ = false;     ///< Nothing has moved since `strays_` were found.
 };
 
 std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
                                           std::span<const BodyDesc> add) {
   check_bodies(add);
+  queries_valid_ = false;
   remove_bodies(remove);
   std::vector<BodySlot> slots;
   std::vector<BodyId> ids;
@@ -170,6 +178,7 @@ void RigidPhysics::edit(const BodyEdit& edit) {
   const BodySlot body = bodies_.slot(edit.body);
   SUNDER_CHECK(bodies_.motion[body] == Motion::kStatic);
   check_shapes(edit.added, bodies_.tag[body]);
+  queries_valid_ = false;
   std::vector<ShapeSlot> removed;
   for (const std::uint32_t tag : edit.removed_tags) removed.push_back(shapes_.with_tag(body, tag));
   remove_shapes(removed);
@@ -179,6 +188,7 @@ void RigidPhysics::edit(const BodyEdit& edit) {
 }
 
 void RigidPhysics::collide(double dt_s) {
+  queries_valid_ = false;
   freeze_broken();
   step_ = StepContext(options_.gravity_W, dt_s);
   find_near();
@@ -340,8 +350,33 @@ void RigidPhysics::pause(std::span<const BodyId> bodies) {
     for (const BodySlot body : joints_.joined_to(bodies_.slot(id), bodies_)) paused_.add(body);
 }
 
+const std::vector<ShapeSlot>& RigidPhysics::strays() {
+  if (!std::exchange(queries_valid_, true)) strays_ = broad_phase_.strays(shapes_, bodies_);
+  return strays_;
+}
+
+void RigidPhysics::visit_on_ray(const Vec3& from_W, const Vec3& direction_W, double reach_m,
+                                double radius_m, ShapeVisitor& visitor) {
+  Ray ray(from_W, direction_W, reach_m, radius_m);
+  broad_phase_.on_ray(ray, strays(), [&](ShapeSlot shape) {
+    const ShapeId id{bodies_.tag[shapes_[shape].body], shapes_[shape].tag};
+    ray.shorten(visitor.visit(id, ray.reach_m));
+  });
+}
+
+void RigidPhysics::visit_in_box(const Box& box_W, ShapeVisitor& visitor) {
+  const float pad =
+      4e-7f * static_cast<float>(box_W.min.cwiseAbs().cwiseMax(box_W.max.cwiseAbs()).maxCoeff());
+  const FloatBox box{box_W.min.cast<float>() - Vec3f::Constant(pad),
+                     box_W.max.cast<float>() + Vec3f::Constant(pad)};
+  broad_phase_.in_box(box, strays(), [&](ShapeSlot shape) {
+    visitor.visit({bodies_.tag[shapes_[shape].body], shapes_[shape].tag}, 0);
+  });
+}
+
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
+  queries_valid_ = false;
   const StepContext step(options_.gravity_W, dt_s, substeps, last_h_s_);
   SolveReport report;
   freeze_broken();

@@ -24,7 +24,7 @@ Compound column() {
 }
 
 struct Column {
-  World world;
+  WorldState world;
   ScriptedPhysics* physics;
 
   explicit Column(const Compound& compound = column())

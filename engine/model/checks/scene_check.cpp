@@ -3,53 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
 
-#include "engine/base/check.h"
+#include "engine/model/checks/item_check.h"
 
 namespace sunder {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what, const std::string& expected) {
-  throw InputError("scene." + what + "; expected " + expected);
-}
-
-std::string text_of(double number) {
-  std::ostringstream out;
-  out << number;
-  return out.str();
-}
-
-void need_number(double number, double low, double high, const std::string& name) {
-  if (number >= low && number <= high) return;
-  refuse(name + " is " + text_of(number), "a number from " + text_of(low) + " to " + text_of(high));
-}
-
-void need_finite(const Vec3& vector, const std::string& name) {
-  if (!vector.allFinite()) refuse(name + " is not finite", "three finite numbers");
-}
-
-std::string item(const char* list, std::size_t i) {
-  return std::string(list) + "[" + std::to_string(i) + "]";
-}
-
-// Largest length, coefficient or other number, and largest time, that a scene may have.
-constexpr double kMaxNumber = 1e9, kMaxTime_s = 1e7;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-class SceneCheck {
+class SceneCheck : private ItemCheck {
  public:
-  explicit SceneCheck(const Scene& scene) : scene_(scene) {}
+  explicit SceneCheck(const Scene& scene) : ItemCheck("scene.", scene.materials), scene_(scene) {}
 
   void run() const {
     check_run();
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i) check_material(i);
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+      material(scene_.materials[i], item("materials", i));
     for (std::size_t i = 0; i < scene_.solids.size(); ++i)
-      check_solid(scene_.solids[i], item("solids", i));
+      solid(scene_.solids[i], item("solids", i));
     check_piece_size();
-    for (std::size_t i = 0; i < scene_.balls.size(); ++i)
-      check_ball(scene_.balls[i], item("balls", i));
+    for (std::size_t i = 0; i < scene_.balls.size(); ++i) ball(scene_.balls[i], item("balls", i));
     for (std::size_t i = 0; i < scene_.ground.meshes.size(); ++i) check_ground_mesh(i);
     for (std::size_t i = 0; i < scene_.joints.size(); ++i) check_joint(i);
     check_script();
@@ -64,7 +35,7 @@ class SceneCheck {
     need_number(accuracy.substeps, 1, 1000, "accuracy.substeps");
     const double steps = 1.0 / 60 / accuracy.dt_s;
     if (steps > 1 && std::abs(steps - std::round(steps)) > 1e-6 * steps)
-      refuse("accuracy.dt_s is " + text_of(accuracy.dt_s),
+      refuse("accuracy.dt_s is " + number_text(accuracy.dt_s),
              "a frame of 1/60 s divided by a whole number, such as 1/120");
     need_number(accuracy.error_target_m, 0, kMaxNumber, "accuracy.error_target_m");
     need_number(scene_.solver.sweeps, 1, 1000, "solver.sweeps");
@@ -77,111 +48,6 @@ class SceneCheck {
     need_number(scene_.ground.restitution, 0, 1, "ground.restitution");
   }
 
-  void check_material(std::size_t i) const {
-    const Material& material = scene_.materials[i];
-    const std::string name = item("materials", i) + ".";
-    need_number(material.density_kg_m3, 1e-6, 1e9, name + "density_kg_m3");
-    need_number(material.friction, 0, kMaxNumber, name + "friction");
-    need_number(material.restitution, 0, 1, name + "restitution");
-    need_number(material.rolling, 0, kMaxNumber, name + "rolling");
-    need_number(material.youngs_Pa, 1, 1e15, name + "youngs_Pa");
-    const std::pair<double, const char*> sizes[] = {
-        {material.strength_Ns.value_or(0), "strength_Ns"},
-        {material.toughness_J_m2, "toughness_J_m2"},
-        {material.impact_radius_m, "impact_radius_m"},
-        {material.tensile_Pa, "tensile_Pa"},
-        {material.shear_Pa, "shear_Pa"},
-        {material.compressive_Pa, "compressive_Pa"},
-        {material.yield_Pa, "yield_Pa"},
-        {material.smallest_break_m3.value_or(0), "smallest_break_m3"},
-        {material.smallest_piece_m3, "smallest_piece_m3"}};
-    for (const auto& [size, member] : sizes) need_number(size, 0, kInfinity, name + member);
-    need_number(material.reinforcement_percent, 0, 100, name + "reinforcement_percent");
-    need_number(material.hardening_Pa, 0, kInfinity, name + "hardening_Pa");
-    need_number(material.elongation, 0, kInfinity, name + "elongation");
-    check_pattern(material.pattern, name + "pattern.");
-    for (std::size_t k = 0; k < material.stronger.size(); ++k) {
-      const ImpactResponse& stronger = material.stronger[k];
-      const std::string of = name + item("stronger", k) + ".";
-      need_number(stronger.energy_J, k > 0 ? material.stronger[k - 1].energy_J : 0, kInfinity,
-                  of + "energy_J");
-      need_number(stronger.impact_radius_m, 0, kInfinity, of + "impact_radius_m");
-      check_pattern(stronger.pattern, of + "pattern.");
-    }
-    const DebrisEmission& crumbling = material.crumbling;
-    need_number(crumbling.particles_per_m2, 0, kMaxNumber, name + "crumbling.particles_per_m2");
-    need_number(crumbling.debris_ratio, 0, 1, name + "crumbling.debris_ratio");
-    need_number(crumbling.debris_smallest_m, 1e-6, kMaxNumber,
-                name + "crumbling.debris_smallest_m");
-    need_number(crumbling.debris_largest_m, crumbling.debris_smallest_m, kMaxNumber,
-                name + "crumbling.debris_largest_m");
-    need_number(crumbling.dust_kg_m2, 0, kMaxNumber, name + "crumbling.dust_kg_m2");
-    need_number(crumbling.dust_settling_m_s, 0, kMaxNumber, name + "crumbling.dust_settling_m_s");
-  }
-
-  void check_pattern(const PatternSpec& pattern, const std::string& name) const {
-    constexpr int kMaxCells = 100000;
-    need_number(pattern.cells, 1, kMaxCells, name + "cells");
-    need_number(pattern.rings, 1, kMaxCells, name + "rings");
-    need_number(pattern.spokes, 1, kMaxCells, name + "spokes");
-    need_number(pattern.colors, 0, kMaxCells, name + "colors");
-    need_number(pattern.falloff, 0, kMaxNumber, name + "falloff");
-    need_number(pattern.jitter, 0, 1, name + "jitter");
-    if (pattern.kind == PatternSpec::Kind::kFile && pattern.file.empty())
-      refuse(name + "file is empty", "the name of a file");
-    if (pattern.kind != PatternSpec::Kind::kBrick) return;
-    for (const double side_m : pattern.brick_m)
-      need_number(side_m, 1e-6, kMaxNumber, name + "brick_m");
-  }
-
-  void need_material(MaterialIndex index, const std::string& name) const {
-    if (index.value < scene_.materials.size()) return;
-    refuse(
-        name + (index.none() ? " has no material" : " has material " + std::to_string(index.value)),
-        scene_.materials.empty()
-            ? "a material in scene.materials, which is empty"
-            : "one of the " + std::to_string(scene_.materials.size()) + " in scene.materials");
-  }
-
-  void check_solid(const Solid& solid, const std::string& name) const {
-    const Compound& compound = solid.compound;
-    const std::size_t count = compound.convexes.size();
-    if (count == 0) refuse(name + ".compound has no convexes", "at least one");
-    if (compound.anchored.size() != count)
-      refuse(
-          name + ".compound.anchored has " + std::to_string(compound.anchored.size()) + " elements",
-          "one for each convex, " + std::to_string(count));
-    for (const ConvexPtr& convex : compound.convexes) {
-      if (!convex) refuse(name + ".compound has a null convex", "no null pointers");
-      if (!(convex->solid.volume_m3 > 0))
-        refuse(name + ".compound has a convex without volume", "a volume above 0");
-      need_material(convex->material, name);
-    }
-    for (const Bond& bond : compound.bonds) {
-      if (bond.a >= count || bond.b >= count)
-        refuse(
-            name + ".compound has a bond with convex " + std::to_string(std::max(bond.a, bond.b)),
-            "an index below " + std::to_string(count));
-      if (bond.face_a >= compound.convexes[bond.a]->polyhedron.faces.size() ||
-          bond.face_b >= compound.convexes[bond.b]->polyhedron.faces.size())
-        refuse(name + ".compound has a bond with a face that does not exist",
-               "faces of the convexes; make_compound() finds bonds");
-    }
-    for (const Ghost& ghost : compound.ghosts) {
-      if (!ghost.convex) refuse(name + ".compound has a ghost without a convex", "a convex");
-      for (const std::uint32_t of : ghost.of) {
-        if (of >= count)
-          refuse(name + ".compound has a ghost with convex " + std::to_string(of),
-                 "an index below " + std::to_string(count));
-      }
-    }
-    need_finite(solid.X_WR.position, name + ".X_WR.position");
-    need_number(solid.X_WR.rotation.norm(), 0.999, 1.001,
-                "the length of " + name + ".X_WR.rotation");
-    need_finite(solid.velocity_W, name + ".velocity_W");
-    need_finite(solid.angular_velocity_W, name + ".angular_velocity_W");
-  }
-
   /// Refuses a factor with which all pieces of the largest solid would be debris.
   void check_piece_size() const {
     double most = 0;  // size of the largest solid, in smallest pieces of its material
@@ -192,22 +58,15 @@ class SceneCheck {
     }
     const double factor = scene_.limits.piece_size_factor;
     if (factor > 1 && most > 0 && factor > most)
-      refuse("limits.piece_size_factor is " + text_of(factor) +
+      refuse("limits.piece_size_factor is " + number_text(factor) +
                  ", so that all pieces of the largest solid would be debris",
-             "at most " + text_of(std::max(1.0, most)));
-  }
-
-  void check_ball(const Ball& ball, const std::string& name) const {
-    need_number(ball.radius_m, 1e-9, kMaxNumber, name + ".radius_m");
-    need_material(ball.material, name);
-    need_finite(ball.center_W, name + ".center_W");
-    need_finite(ball.velocity_W, name + ".velocity_W");
+             "at most " + number_text(std::max(1.0, most)));
   }
 
   void check_ground_mesh(std::size_t i) const {
     const GroundMesh& mesh = scene_.ground.meshes[i];
     const std::string name = item("ground.meshes", i);
-    need_material(mesh.material, name);
+    material_index(mesh.material, name);
     for (const Vec3& vertex : mesh.vertices_W) need_finite(vertex, name + ".vertices_W");
     for (const auto& triangle : mesh.triangles) {
       if (std::ranges::max(triangle) >= mesh.vertices_W.size())
@@ -219,24 +78,13 @@ class SceneCheck {
   std::size_t bodies() const { return scene_.solids.size() + scene_.balls.size(); }
 
   void check_joint(std::size_t i) const {
-    const Joint& joint = scene_.joints[i];
     const std::string name = item("joints", i);
-    if (!joint.a && !joint.b) refuse(name + " has no body", "a, b or both");
-    for (const std::optional<std::uint32_t>& end : {joint.a, joint.b}) {
+    joint(scene_.joints[i], name);
+    for (const std::optional<std::uint32_t>& end : {scene_.joints[i].a, scene_.joints[i].b}) {
       if (end && *end >= bodies())
         refuse(name + " has body " + std::to_string(*end),
                "one of the " + std::to_string(bodies()) + " solids and balls");
     }
-    if (joint.a == joint.b) refuse(name + " joins a body to itself", "two different bodies");
-    need_finite(joint.at_W, name + ".at_W");
-    need_finite(joint.to_W, name + ".to_W");
-    need_finite(joint.axis_W, name + ".axis_W");
-    need_number(joint.breaking_N, 0, kInfinity, name + ".breaking_N");
-    need_number(joint.breaking_Nm, 0, kInfinity, name + ".breaking_Nm");
-    if (joint.kind == JointKind::kHinge && !(joint.axis_W.norm() > 0))
-      refuse(name + ".axis_W is zero", "a vector with a length");
-    if (joint.kind == JointKind::kPlastic)
-      refuse(name + ".kind is kPlastic, which scenes cannot use", "another kind of joint");
   }
 
   void need_roots(const std::vector<std::uint32_t>& roots, std::size_t count,
@@ -275,15 +123,9 @@ class SceneCheck {
     need_times(scene_.blasts, "blasts");
     need_times(scene_.removals, "removals");
     need_times(scene_.drives, "drives");
-    for (std::size_t i = 0; i < scene_.shots.size(); ++i) {
-      const std::string name = item("shots", i);
-      check_ball(scene_.shots[i].ball, name + ".ball");
-      const Vec3 from_W = scene_.shots[i].hangs_from_W.value_or(Vec3::Zero());
-      need_finite(from_W, name + ".hangs_from_W");
-      for (const Solid& link : scene_.shots[i].links) check_solid(link, name + ".links");
-    }
+    for (std::size_t i = 0; i < scene_.shots.size(); ++i) shot(scene_.shots[i], item("shots", i));
     for (std::size_t i = 0; i < scene_.blasts.size(); ++i)
-      check_blast(scene_.blasts[i], item("blasts", i));
+      blast(scene_.blasts[i], item("blasts", i));
     for (std::size_t i = 0; i < scene_.removals.size(); ++i) {
       const Removal& removal = scene_.removals[i];
       need_roots(removal.roots, bodies(), item("removals", i));
@@ -298,22 +140,9 @@ class SceneCheck {
       check_move(scene_.moves[i], item("moves", i));
   }
 
-  void check_blast(const Blast& blast, const std::string& name) const {
-    need_finite(blast.center_W, name + ".center_W");
-    need_number(blast.radius_m, 1e-9, kMaxNumber, name + ".radius_m");
-    need_number(blast.impulse_Ns_m2, 0, 1e15, name + ".impulse_Ns_m2");
-    if (blast.tnt_kg) need_number(*blast.tnt_kg, 1e-9, kMaxNumber, name + ".tnt_kg");
-  }
-
-  void check_drive(const Drive& drive, const std::string& name) const {
-    need_roots(drive.roots, bodies(), name);
-    need_number(drive.until_s, drive.time_s, kInfinity, name + ".until_s");
-    if (!drive.velocity_W && !drive.angular_velocity_W)
-      refuse(name + " has no velocity", "velocity_W, angular_velocity_W or both");
-    need_finite(drive.velocity_W.value_or(Vec3::Zero()), name + ".velocity_W");
-    need_finite(drive.angular_velocity_W.value_or(Vec3::Zero()), name + ".angular_velocity_W");
-    need_number(drive.force_N, 0, kInfinity, name + ".force_N");
-    need_number(drive.torque_Nm, 0, kInfinity, name + ".torque_Nm");
+  void check_drive(const Drive& one, const std::string& name) const {
+    need_roots(one.roots, bodies(), name);
+    drive(one, name);
   }
 
   void check_move(const Move& move, const std::string& name) const {
@@ -323,7 +152,7 @@ class SceneCheck {
     double last_s = 0;
     for (const PathKey& key : move.path.keys) {
       if (!(key.time_s > last_s && key.time_s <= kMaxTime_s))
-        refuse(name + ".path has a key at " + text_of(key.time_s) + " s",
+        refuse(name + ".path has a key at " + number_text(key.time_s) + " s",
                "times that ascend from 0");
       last_s = key.time_s;
       need_finite(key.shift_W, name + ".path, shift_W");

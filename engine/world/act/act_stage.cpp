@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "engine/world/act/moves.h"
 #include "engine/world/actors/make_actor.h"
@@ -11,18 +13,10 @@
 namespace sunder {
 namespace {
 
-/// Returns the actions that have become due since the last step.
-template <class Act>
-std::span<const Act> take_due(const Clock& clock, const std::vector<Act>& acts, std::size_t& next) {
-  const std::size_t first = next;
-  while (next < acts.size() && clock.is_due(acts[next].time_s)) ++next;
-  return std::span(acts).subspan(first, next - first);
-}
-
-std::uint32_t newest(const World& world) { return world.actors[world.actors.size() - 1].key; }
+std::uint32_t newest(const WorldState& world) { return world.actors[world.actors.size() - 1].key; }
 
 /// Adds a shot ball on a rope, or on a chain, which is added with it.
-void add_hanging_ball(World& world, const Shot& shot) {
+void add_hanging_ball(WorldState& world, const Shot& shot) {
   std::optional<std::uint32_t> above;
   Joint joint;
   if (shot.links.empty()) {
@@ -49,23 +43,27 @@ void add_hanging_ball(World& world, const Shot& shot) {
   world.joints.add(*world.physics, world.actors, joint);
 }
 
-void shoot(World& world, const Shot& shot) {
+void shoot(WorldState& world, const Shot& shot, std::uint32_t name) {
   const std::uint32_t first_key = world.actors.next_key();
   if (shot.hangs_from_W) {
     add_hanging_ball(world, shot);
   } else {
     add_ball(world, shot.ball);
   }
-  const Scene& scene = world.scene;
-  const auto number = static_cast<std::size_t>(&shot - scene.shots.data());
   for (Actor& actor : world.actors) {
     if (actor.key < first_key) continue;
     world.log.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
-    actor.name = static_cast<std::uint32_t>(scene.solids.size() + scene.balls.size() + number);
+    actor.name = name;
   }
 }
 
-void remove_actors(World& world, const std::vector<std::size_t>& gone) {
+double mass_kg(const WorldState& world, const Shot& shot) {
+  double sum_kg = ball_mass_kg(shot.ball, *world.materials);
+  for (const Solid& link : shot.links) sum_kg += mass_of(link.compound, *world.materials).mass_kg;
+  return sum_kg;
+}
+
+void remove_actors(WorldState& world, const std::vector<std::size_t>& gone) {
   std::vector<BodyId> bodies;
   for (const std::size_t i : gone) {
     bodies.push_back(world.actors[i].body);
@@ -76,7 +74,7 @@ void remove_actors(World& world, const std::vector<std::size_t>& gone) {
 }
 
 /// Removes the anchors in a region; their solids stay held by other anchors, or become free.
-void remove_anchors(World& world, const Box& region_W) {
+void remove_anchors(WorldState& world, const Box& region_W) {
   const BodyStates states = world.physics->states();
   std::vector<std::uint32_t> loosened;
   for (Actor& actor : world.actors) {
@@ -98,15 +96,8 @@ void remove_anchors(World& world, const Box& region_W) {
   }
 }
 
-void remove(World& world, const Removal& removal) {
-  if (removal.roots.empty()) {
-    remove_anchors(world, removal.anchors_W);
-    return;
-  }
-  std::vector<std::size_t> gone;
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    if (std::ranges::binary_search(removal.roots, world.actors[i].root_key)) gone.push_back(i);
-  }
+/// Removes actors by the script or the program.
+void take_out(WorldState& world, const std::vector<std::size_t>& gone) {
   for (const std::size_t i : gone) {
     const Actor& actor = world.actors[i];
     world.log.removed_mass_kg += actor.weight.mass_kg;
@@ -115,8 +106,20 @@ void remove(World& world, const Removal& removal) {
   remove_actors(world, gone);
 }
 
+void remove(WorldState& world, const Removal& removal) {
+  if (removal.roots.empty()) {
+    remove_anchors(world, removal.anchors_W);
+    return;
+  }
+  std::vector<std::size_t> gone;
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    if (std::ranges::binary_search(removal.roots, world.actors[i].root_key)) gone.push_back(i);
+  }
+  take_out(world, gone);
+}
+
 /// Turns the smallest fragments at rest into debris if there are more bodies than the limit allows.
-void age(World& world) {
+void age(WorldState& world) {
   const Limits& limits = world.scene.limits;
   const std::uint32_t most =
       limits.ageing > 0 ? std::min(limits.ageing, limits.bodies) : limits.bodies;
@@ -144,7 +147,7 @@ void age(World& world) {
 }
 
 /// Sets the factor on the volume of the smallest pieces for this step.
-void set_smallest_piece_factor(World& world) {
+void set_smallest_piece_factor(WorldState& world) {
   const std::uint32_t full_detail = world.scene.limits.full_detail;
   if (full_detail == 0) return;
   const BodyStates states = world.physics->states();
@@ -158,7 +161,7 @@ Vec3 limit_length(double most, const Vec3& impulse) {
   return impulse.norm() > most ? Vec3(impulse * (most / impulse.norm())) : impulse;
 }
 
-void apply_drive(World& world, const Drive& drive) {
+void apply_drive(WorldState& world, const Drive& drive) {
   const double dt_s = world.clock.dt_s;
   for (const std::uint32_t root : drive.roots) {
     const Actor* actor = world.actors.find(root);
@@ -188,25 +191,65 @@ void apply_drive(World& world, const Drive& drive) {
 
 }  // namespace
 
-std::vector<ActorImpact> ActStage::run(World& world) {
-  for (const Shot& shot : take_due(world.clock, world.scene.shots, next_shot_)) shoot(world, shot);
-  for (const Removal& removal : take_due(world.clock, world.scene.removals, next_removal_)) {
-    remove(world, removal);
+void remove_actor(WorldState& world, std::uint32_t key) {
+  take_out(world, {world.actors.place_of(*world.actors.find(key))});
+}
+
+void loosen_actor(WorldState& world, std::uint32_t key) {
+  Actor& actor = *world.actors.find(key);
+  for (const ConvexSlot slot : actor.structure.slots()) actor.structure.loosen(slot);
+  BreakEdit nothing_more;
+  apply_break(world, key, nothing_more);
+}
+
+void ActStage::start(WorldState& world) {
+  const Scene& scene = world.scene;
+  const std::size_t first_name = scene.solids.size() + scene.balls.size();
+  for (std::size_t i = 0; i < scene.shots.size(); ++i) {
+    const Shot& shot = scene.shots[i];
+    shots_.add(
+        {shot.time_s, mass_kg(world, shot), static_cast<std::uint32_t>(first_name + i), shot});
   }
-  for (const Blast& blast : take_due(world.clock, world.scene.blasts, next_blast_)) {
-    blasts_.push_back(start_blast(world, blast));
+  for (const Blast& blast : scene.blasts) add(blast);
+  for (const Removal& removal : scene.removals) add(removal);
+  drives_ = scene.drives;
+  for (const Move& move : scene.moves)
+    for (const std::uint32_t root : move.roots)  // keys are still indices
+      moves_.add(world, move, root, scene.solids[root].X_WR);
+}
+
+void ActStage::add(WorldState& world, Shot shot) {
+  const double kg = mass_kg(world, shot);
+  const std::uint32_t name = world.add_name(shot.ball.name);
+  shots_.add({shot.time_s, kg, name, std::move(shot)});
+}
+
+void ActStage::add(WorldState& world, const Move& move, const Actor& actor) {
+  moves_.add(world, move, actor.key, rest_pose(actor, world.physics->state(actor.body).X_WB));
+}
+
+void ActStage::add(ActorImpact impact) {
+  impact.blast = next_blast_++;
+  impacts_.push_back(std::move(impact));
+}
+
+std::vector<ActorImpact> ActStage::run(WorldState& world) {
+  for (const PlannedShot& due : shots_.take_due(world.clock)) shoot(world, due.shot, due.name);
+  for (const Removal& removal : removals_.take_due(world.clock)) remove(world, removal);
+  for (PlannedBlast& due : blasts_to_come_.take_due(world.clock)) {
+    blasts_.push_back(start_blast(world, std::move(due.blast), due.number));
   }
-  std::vector<ActorImpact> impacts;
+  std::vector<ActorImpact> impacts = std::exchange(impacts_, {});
   for (ActiveBlast& active : blasts_) {
     for (ActorImpact& impact : find_blast_impacts(world, active)) impacts.push_back(impact);
   }
-  update_moves(world);
+  moves_.update(world);
   age(world);
   set_smallest_piece_factor(world);
   return impacts;
 }
 
-void ActStage::push(World& world) {
+void ActStage::push(WorldState& world) {
   const auto impulse_is_due = [&](const ActiveBlast& active) {
     return world.clock.is_due(active.impulse_time_s);
   };
@@ -214,14 +257,15 @@ void ActStage::push(World& world) {
     if (impulse_is_due(active)) apply_blast_impulses(world, active.blast);
   }
   std::erase_if(blasts_, impulse_is_due);
-  for (const Drive& drive : world.scene.drives) {
-    const bool on = world.clock.is_due(drive.time_s) && !world.clock.is_due(drive.until_s);
-    if (on) apply_drive(world, drive);
-  }
+  std::erase_if(drives_, [&](const Drive& drive) { return world.clock.is_due(drive.until_s); });
+  for (const Drive& drive : drives_)
+    if (world.clock.is_due(drive.time_s)) apply_drive(world, drive);
 }
 
-std::span<const Shot> ActStage::shots_to_come(const Scene& scene) const {
-  return std::span(scene.shots).subspan(next_shot_);
+double ActStage::mass_to_come_kg() const {
+  double mass_kg = 0;
+  for (const PlannedShot& planned : shots_.to_come()) mass_kg += planned.mass_kg;
+  return mass_kg;
 }
 
 }  // namespace sunder

@@ -115,7 +115,7 @@ bool reaches(const Blast& blast, const Actor& actor, const Pose& X_WR) {
   return (nearest_R - center_R).norm() < reach_m(blast);
 }
 
-bool was_tried(const World& world, const ActiveBlast& active, const Convex& convex,
+bool was_tried(const WorldState& world, const ActiveBlast& active, const Convex& convex,
                const BlastImpulse& impulse) {
   if (impulse.sum_Ns <= 0) return false;
   const double radius = kTriedBlastRadius * world.material(convex.material).impact_radius_m;
@@ -135,13 +135,13 @@ std::vector<BlastImpulse> impulses_on(const Blast& blast, const Cover& cover, co
 }
 
 /// Returns the energy that an impulse gives to a free convex.
-double energy_J(const World& world, const BlastImpulse& impulse, const Convex& convex) {
+double energy_J(const WorldState& world, const BlastImpulse& impulse, const Convex& convex) {
   const double mass_kg = world.material(convex.material).density_kg_m3 * convex.solid.volume_m3;
   return 0.5 * impulse.impulse_W.squaredNorm() / mass_kg;
 }
 
 /// Adds all impulses on an actor to the impact, if they can break it by bending.
-void add_bending(const World& world, const Actor& actor, const Pose& X_WR,
+void add_bending(const WorldState& world, const Actor& actor, const Pose& X_WR,
                  std::span<const BlastImpulse> impulses, ActorImpact& impact) {
   double all_J = 0;
   actor.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
@@ -165,7 +165,7 @@ void add_bending(const World& world, const Actor& actor, const Pose& X_WR,
 
 /// Sets the point and energy of an impact by pattern, at the largest untried impulse; the energy
 /// stays 0 if it cannot break the actor.
-void add_breaking(const World& world, const ActiveBlast& active, const Actor& actor,
+void add_breaking(const WorldState& world, const ActiveBlast& active, const Actor& actor,
                   std::vector<BlastImpulse> impulses, ActorImpact& impact) {
   const Structure& structure = actor.structure;
   ConvexSlot hardest(0);
@@ -203,7 +203,7 @@ void add_breaking(const World& world, const ActiveBlast& active, const Actor& ac
   impact.energy_J = near_J;
 }
 
-void apply_impulse(World& world, const Blast& blast, const Cover& cover, const Actor& actor) {
+void apply_impulse(WorldState& world, const Blast& blast, const Cover& cover, const Actor& actor) {
   const Pose X_WR = rest_pose(actor, world.physics->state(actor.body).X_WB);
   if (!reaches(blast, actor, X_WR)) return;
   BlastImpulse impulse;
@@ -223,7 +223,8 @@ void apply_impulse(World& world, const Blast& blast, const Cover& cover, const A
 }
 
 /// Applies a blast's impulse to a chip at its current position.
-void apply_impulse(const World& world, const Blast& blast, const Cover& cover, DebrisPiece& chip) {
+void apply_impulse(const WorldState& world, const Blast& blast, const Cover& cover,
+                   DebrisPiece& chip) {
   const double elapsed_s = world.clock.elapsed_s();
   const Vec3 place_W = chip.center_W + elapsed_s * chip.velocity_W;
   if (cover.covers(place_W)) return;
@@ -237,12 +238,11 @@ void apply_impulse(const World& world, const Blast& blast, const Cover& cover, D
 
 }  // namespace
 
-ActiveBlast start_blast(const World& world, const Blast& blast) {
-  const auto number = static_cast<std::uint32_t>(&blast - world.scene.blasts.data());
-  return {blast, world.clock.time_s() + kBlastBreakTime_s, {}, number};
+ActiveBlast start_blast(const WorldState& world, Blast blast, std::uint32_t number) {
+  return {std::move(blast), world.clock.time_s() + kBlastBreakTime_s, {}, number};
 }
 
-std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& active) {
+std::vector<ActorImpact> find_blast_impacts(const WorldState& world, ActiveBlast& active) {
   const BodyStates states = world.physics->states();
   const Cover cover(world, active.blast);
   std::vector<ActorImpact> impacts;
@@ -266,7 +266,7 @@ std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& act
   return impacts;
 }
 
-void apply_blast_impulses(World& world, const Blast& blast) {
+void apply_blast_impulses(WorldState& world, const Blast& blast) {
   const Cover cover(world, blast);
   if (world.exposed) {
     for (DebrisPiece& chip : world.exposed->chips) apply_impulse(world, blast, cover, chip);

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/world/actors/impact.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -23,18 +23,18 @@ struct ActiveBlast {
   Blast blast;
   double impulse_time_s = 0;
   std::vector<Vec3> tried_points_W;  ///< Points where it has tried to break something.
-  std::uint32_t number = 0;          ///< Index in the scene.
+  std::uint32_t number = 0;          ///< Unique in a run.
   /// By actor: number of edits when its bending was last planned.
   std::map<std::uint32_t, std::uint32_t> bent = {};
 };
 
-/// Begins a blast of the scene.
-ActiveBlast start_blast(const World& world, const Blast& blast);
+/// Begins a blast; `number` is unique in a run.
+ActiveBlast start_blast(const WorldState& world, Blast blast, std::uint32_t number);
 /// Returns the impacts of a blast: by pattern, at each actor's untried point of largest impulse; by
 /// stress, with all impulses on each actor that has been edited since the last time. Records both
 /// in `active`.
-std::vector<ActorImpact> find_blast_impacts(const World& world, ActiveBlast& active);
+std::vector<ActorImpact> find_blast_impacts(const WorldState& world, ActiveBlast& active);
 /// Applies the impulse of a blast to all movable actors and to the chips of this frame.
-void apply_blast_impulses(World& world, const Blast& blast);
+void apply_blast_impulses(WorldState& world, const Blast& blast);
 
 }  // namespace sunder

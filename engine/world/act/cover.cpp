@@ -90,7 +90,7 @@ double end_of(const ConvexPolyhedron& convex, const Vec3& origin_R, const Vec3& 
 
 }  // namespace
 
-Cover::Cover(const World& world, const Blast& blast) : center_W_(blast.center_W) {
+Cover::Cover(const WorldState& world, const Blast& blast) : center_W_(blast.center_W) {
   if (!blast.cover) return;
   cells_.resize(std::size_t{6} * kCoverCellsPerEdge * kCoverCellsPerEdge);
   const BodyStates states = world.physics->states();

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -14,7 +14,7 @@ namespace sunder {
 class Cover {
  public:
   /// Makes the map of a blast; an empty one if the blast has no cover.
-  Cover(const World& world, const Blast& blast);
+  Cover(const WorldState& world, const Blast& blast);
 
   /// Returns true if a point of a convex of an actor is behind another convex; for balls and chips,
   /// which have no convex, behind any.

@@ -46,7 +46,9 @@ struct Actor {
   std::uint32_t key = 0;             ///< Unique in a run, ascending with age; the tag of its body.
   std::uint32_t root_key = 0;        ///< Key of the solid or ball of the scene that it came from.
   std::uint32_t last_frame_key = 0;  ///< Key under which the last frame showed it or its parent.
-  std::uint32_t name = kNoName;      ///< Index in World::names; that of its root.
+  std::uint32_t name = kNoName;      ///< Index in WorldState::names; that of its root.
+  CollisionFilter filter;
+  std::uint64_t user_data = 0;
   BodyId body;
   bool is_static = false;     ///< No impulse moves it: it stands still, or is kinematic.
   bool is_kinematic = false;  ///< It follows a path of keyframes.
@@ -73,6 +75,15 @@ struct Actor {
     const bool has_pattern = least_J < std::numeric_limits<double>::infinity();
     return {least_J,      least_Ns,       least_m_s,
             least_slow_J, stress.least_J, has_pattern ? stress.least_Ns : 0};
+  }
+  /// Takes over what pieces inherit.
+  void inherit(const Actor& parent) {
+    root_key = parent.root_key;
+    last_frame_key = parent.last_frame_key;
+    name = parent.name;
+    filter = parent.filter;
+    user_data = parent.user_data;
+    rejoined = parent.rejoined;
   }
   std::vector<MeshIndex> meshes;  ///< Per slot; none() if invisible, or kMeshPending.
   std::vector<std::vector<std::uint8_t>> hidden;  ///< Per slot: a flag for each face.

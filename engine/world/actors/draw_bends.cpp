@@ -30,7 +30,8 @@ std::vector<std::uint8_t> hidden_in(const Convex& now, const Convex& before,
   return flags;
 }
 
-void draw(World& world, Actor& actor, HingeSide& side, const BentSide& bent, const Plane& plane) {
+void draw(WorldState& world, Actor& actor, HingeSide& side, const BentSide& bent,
+          const Plane& plane) {
   const std::vector<Ended> all = end_side(bent, plane, PlaneId{2});
   std::vector<ConvexPtr> before = std::exchange(side.redrawn, {});
   for (const Ended& ended : all) {
@@ -54,7 +55,7 @@ void draw(World& world, Actor& actor, HingeSide& side, const BentSide& bent, con
   });
 }
 
-void draw(World& world, Joints::Live& joint) {
+void draw(WorldState& world, Joints::Live& joint) {
   Hinge& hinge = *joint.hinge;
   Actor &a = *world.actors.find(joint.a.key), &b = *world.actors.find(joint.b.key);
   const Pose X_AB = relative_rest(*world.physics, a, b);
@@ -72,7 +73,7 @@ void draw(World& world, Joints::Live& joint) {
 
 }  // namespace
 
-void draw_bends(World& world) {
+void draw_bends(WorldState& world) {
   for (Joints::Live& joint : world.joints.live())
     if (joint.hinge) draw(world, joint);
 }

@@ -1,7 +1,7 @@
 #include "engine/world/actors/exposed.h"
 
 #include "engine/geometry/triangulate_face.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 namespace {
@@ -35,7 +35,7 @@ void Exposed::delay(double time_s) {
   for (DebrisPiece& chip : chips) chip.center_W += time_s * chip.velocity_W;
 }
 
-void note_exposed(World& world, const Structure& structure, const BreakEdit& edit,
+void note_exposed(WorldState& world, const Structure& structure, const BreakEdit& edit,
                   const Motion& before, std::span<const std::uint32_t> piece_keys) {
   if (!world.exposed || edit.loose.exposed.empty()) return;
   Exposed& all = *world.exposed;
@@ -56,7 +56,7 @@ void note_exposed(World& world, const Structure& structure, const BreakEdit& edi
   }
 }
 
-void note_chip(World& world, const Compound& piece, const Motion& motion) {
+void note_chip(WorldState& world, const Compound& piece, const Motion& motion) {
   if (!world.exposed) return;
   const CompoundMass weight = mass_of(piece, *world.materials);
   const Vec3 center_W = motion.X_WR * weight.com_R;

@@ -11,7 +11,7 @@
 
 namespace sunder {
 
-struct World;
+struct WorldState;
 
 /// Faces that breaks have exposed, and chips, since the particles last moved.
 struct Exposed {
@@ -38,9 +38,9 @@ struct Exposed {
 
 /// Collects the faces that a break has exposed. `edit` has been applied to `structure`; its pieces
 /// are the actors with these keys (kNoActorKey: too small for an actor).
-void note_exposed(World& world, const Structure& structure, const BreakEdit& edit,
+void note_exposed(WorldState& world, const Structure& structure, const BreakEdit& edit,
                   const Motion& before, std::span<const std::uint32_t> piece_keys);
 /// Collects a piece that is too small for a body.
-void note_chip(World& world, const Compound& piece, const Motion& motion);
+void note_chip(WorldState& world, const Compound& piece, const Motion& motion);
 
 }  // namespace sunder

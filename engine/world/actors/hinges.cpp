@@ -7,7 +7,7 @@
 
 #include "engine/model/breaker.h"
 #include "engine/world/actors/replace.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 #include "engine/world/tuning.h"
 
 namespace sunder {
@@ -38,7 +38,7 @@ HingeSide side_of(const BreakEdit& edit, const Structure& structure, const Plast
 }
 
 /// Adds the faces of one side of a torn section to the exposed faces.
-void note_torn_side(World& world, std::uint32_t key, const HingeSide& side,
+void note_torn_side(WorldState& world, std::uint32_t key, const HingeSide& side,
                     const std::vector<double>& areas_m2) {
   const Actor& actor = *world.actors.find(key);
   BreakEdit bare;
@@ -50,7 +50,7 @@ void note_torn_side(World& world, std::uint32_t key, const HingeSide& side,
                std::span(&key, 1));
 }
 
-void tear(World& world, const Joints::Live& joint) {
+void tear(WorldState& world, const Joints::Live& joint) {
   const Hinge& hinge = *joint.hinge;
   note_torn_side(world, joint.a.key, hinge.a, hinge.areas_m2);
   note_torn_side(world, joint.b.key, hinge.b, hinge.areas_m2);
@@ -66,7 +66,7 @@ void tear(World& world, const Joints::Live& joint) {
 
 }  // namespace
 
-void add_hinges(World& world, const Actor& parent, const BreakEdit& edit,
+void add_hinges(WorldState& world, const Actor& parent, const BreakEdit& edit,
                 std::span<const Actor> pieces, std::span<const std::uint32_t> piece_keys) {
   const auto actor = [&](std::uint32_t piece) -> const Actor& {
     const auto it = std::ranges::find(pieces, piece_keys[piece], &Actor::key);
@@ -84,7 +84,7 @@ void add_hinges(World& world, const Actor& parent, const BreakEdit& edit,
   }
 }
 
-void update_hinges(World& world) {
+void update_hinges(WorldState& world) {
   for (const PlasticFlow& flowed : world.physics->plastic_flows()) {
     Joints::Live& joint = world.joints.at(flowed.joint);
     Hinge& hinge = *joint.hinge;

@@ -69,8 +69,9 @@ SectionStrength Hinge::strength() const {
   return all;
 }
 
-void Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
+std::uint32_t Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
   Live live;
+  live.key = next_key_++;
   JointDesc& desc = live.desc;
   desc.kind = joint.kind;
   const bool apart =
@@ -99,6 +100,7 @@ void Joints::add(Physics& physics, const Actors& actors, const Joint& joint) {
   desc.collide = joint.collide;
   live.id = physics.join(desc);
   live_.push_back(live);
+  return live.key;
 }
 
 Joints::Live Joints::make_hinge(Physics& physics, const Actor& a, const Actor& b, Hinge hinge) {
@@ -249,10 +251,24 @@ std::uint32_t Joints::take_broken(Physics& physics) {
   return live_.empty() ? 0 : erase(physics.take_broken());
 }
 
+std::vector<std::uint32_t> Joints::take_lost() {
+  std::ranges::sort(lost_);
+  return std::exchange(lost_, {});
+}
+
+const Joints::Live* Joints::find(std::uint32_t key) const {
+  const auto at = std::ranges::find(live_, key, &Live::key);
+  return at != live_.end() && key != kNoKey ? &*at : nullptr;
+}
+
 /// Erases joints and returns their number.
 std::uint32_t Joints::erase(const std::vector<JointId>& gone) {
   for (const JointId id : gone) {
-    std::erase_if(live_, [&](const Live& joint) { return joint.id == id; });
+    std::erase_if(live_, [&](const Live& joint) {
+      if (joint.id != id) return false;
+      if (joint.key != kNoKey) lost_.push_back(joint.key);
+      return true;
+    });
   }
   return static_cast<std::uint32_t>(gone.size());
 }

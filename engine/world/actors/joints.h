@@ -57,6 +57,8 @@ Pose relative_rest(const Physics& physics, const Actor& a, const Actor& b);
 
 class Joints {
  public:
+  static constexpr std::uint32_t kNoKey = 0xffffffff;
+
   /// End of a joint: an actor, or the world.
   struct End {
     std::uint32_t key = 0;         ///< kGroundKey: the world.
@@ -64,6 +66,8 @@ class Joints {
   };
   struct Live {
     JointId id;
+    std::uint32_t key =
+        kNoKey;      ///< Of a joint of the scene or the program; plastic hinges have none.
     JointDesc desc;  ///< As made; bodies may have changed.
     End a, b;
     std::optional<Hinge> hinge;  ///< Set for kPlastic.
@@ -74,8 +78,8 @@ class Joints {
   };
 
   /// Joins two actors, or one and the world, at their current poses; `joint.a` and `joint.b` are
-  /// keys.
-  void add(Physics& physics, const Actors& actors, const Joint& joint);
+  /// keys. Returns the joint's key: keys ascend from 0, and are never used again.
+  std::uint32_t add(Physics& physics, const Actors& actors, const Joint& joint);
   /// Joins two actors, at their current poses, by a plastic hinge.
   void add(Physics& physics, const Actor& a, const Actor& b, Hinge hinge);
   /// Reattaches the joints of an actor to its new body.
@@ -96,6 +100,10 @@ class Joints {
   std::uint32_t cut(Physics& physics, std::uint32_t key);
   /// Removes the joints that broke under their load in the last solve, and returns their number.
   std::uint32_t take_broken(Physics& physics);
+  /// Returns the keys of joints that were lost since the last call; ascending.
+  std::vector<std::uint32_t> take_lost();
+  /// Returns the joint with a key; null if there is none.
+  const Live* find(std::uint32_t key) const;
   /// All joints; ends name the current actors.
   const std::vector<Live>& live() const { return live_; }
   std::vector<Live>& live() { return live_; }
@@ -111,6 +119,8 @@ class Joints {
   std::uint32_t erase(const std::vector<JointId>& gone);
 
   std::vector<Live> live_;
+  std::vector<std::uint32_t> lost_;  ///< Keys, since the last take_lost().
+  std::uint32_t next_key_ = 0;
 };
 
 }  // namespace sunder

@@ -2,6 +2,7 @@
 // engine/world.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/model/facets.h"
@@ -9,7 +10,7 @@
 
 namespace sunder {
 
-struct World;
+struct WorldState;
 
 /// Meshes of the ground: one body in frames, several in the physics.
 struct Landscape {
@@ -18,8 +19,11 @@ struct Landscape {
   std::vector<MeshIndex> meshes;         ///< Drawn meshes, in W.
 };
 
+/// Shape tag of the ground's plane; facets have their index in Landscape::facets.
+inline constexpr std::uint32_t kGroundPlaneTag = 0xffffffff;
+
 /// Adds the scene's ground to the physics, tagged kGroundKey, and its meshes to those that are
 /// drawn.
-void add_ground(World& world);
+void add_ground(WorldState& world);
 
 }  // namespace sunder

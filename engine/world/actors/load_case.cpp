@@ -46,7 +46,7 @@ void add_as_block(const Structure& structure, std::span<const ConvexSlot> block,
 
 }  // namespace
 
-LoadCase make_load_case(const World& world, const Actor& actor, const Quat& rotation_WB,
+LoadCase make_load_case(const WorldState& world, const Actor& actor, const Quat& rotation_WB,
                         std::vector<AppliedForce>& loads) {
   for (const AppliedForce& force : actor.stress.mean_forces) {
     const Vec3& centroid = actor.structure.convex(force.convex)->solid.centroid;

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "engine/model/breaker.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
 /// Returns the load case of self-weight, spin, and contact and joint forces, without a limit of
 /// work. `loads` receives the forces and must outlive the load case.
-LoadCase make_load_case(const World& world, const Actor& actor, const Quat& rotation_WB,
+LoadCase make_load_case(const WorldState& world, const Actor& actor, const Quat& rotation_WB,
                         std::vector<AppliedForce>& loads);
 
 /// Appends the loads of a joint that acts on a structure at `at_R` with a force and a torque about

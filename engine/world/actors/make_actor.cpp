@@ -12,7 +12,7 @@ namespace sunder {
 namespace {
 
 /// Returns true if stress in its bonds may break an actor.
-bool breaks_by_load(const World& world, const Actor& actor) {
+bool breaks_by_load(const WorldState& world, const Actor& actor) {
   if (actor.structure.size() < 2) return false;
   return std::ranges::any_of(actor.materials, [&](MaterialIndex material) {
     return world.material(material).breaks_by_load();
@@ -21,7 +21,7 @@ bool breaks_by_load(const World& world, const Actor& actor) {
 
 /// Returns true if contact forces and impacts load the bonds of an actor. Small fragments of
 /// brittle materials are checked for stress by spin only.
-bool reports_contact_loads(const World& world, const Actor& actor) {
+bool reports_contact_loads(const WorldState& world, const Actor& actor) {
   if (!actor.stress.breakable) return false;
   const bool is_fragment = actor.key != actor.root_key && !actor.is_static;
   return !is_fragment || actor.structure.size() >= world.scene.limits.loaded_convexes ||
@@ -32,7 +32,7 @@ bool reports_contact_loads(const World& world, const Actor& actor) {
 
 /// Returns the squared angular speed at which ρω²r² at the farthest point equals the lowest stress
 /// limit.
-double burst_omega2_s2_of(const World& world, const Actor& actor) {
+double burst_omega2_s2_of(const WorldState& world, const Actor& actor) {
   double min_stress_limit_Pa = std::numeric_limits<double>::infinity(), density_kg_m3 = 0,
          reach_m = 0;
   for (const MaterialIndex index : actor.materials) {
@@ -49,7 +49,7 @@ double burst_omega2_s2_of(const World& world, const Actor& actor) {
 }
 
 /// Returns true if impacts do not break a material by stress, as the actor has too many bonds.
-bool exceeds_impact_bonds(const World& world, const Actor& actor, const Material& material) {
+bool exceeds_impact_bonds(const WorldState& world, const Actor& actor, const Material& material) {
   return material.breakable() && actor.structure.bond_count() > world.scene.limits.impact_bonds;
 }
 
@@ -70,6 +70,18 @@ bool has_thin_convex(const Structure& structure) {
   return found;
 }
 
+/// Returns the shape of an actor that is a ball.
+ShapeDesc ball_shape(const WorldState& world, const Actor& actor) {
+  const Material& material = world.material(actor.materials[0]);
+  ShapeDesc shape;
+  shape.kind = ShapeDesc::Kind::kSphere;
+  shape.radius_m = ball_radius_m(actor.volume_m3);
+  shape.friction = material.friction;
+  shape.restitution = material.restitution;
+  shape.rolling = material.rolling;
+  return shape;
+}
+
 }  // namespace
 
 double reached_m3(const Material& material, double volume_m3) {
@@ -77,7 +89,7 @@ double reached_m3(const Material& material, double volume_m3) {
   return std::min(volume_m3, 4.2 * radius_m * radius_m * radius_m);
 }
 
-void set_least(const World& world, Actor& actor) {
+void set_least(const WorldState& world, Actor& actor) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   actor.least_J = actor.least_Ns = actor.least_m_s = actor.least_slow_J = kNever;
   actor.stress.least_J = std::numeric_limits<double>::infinity();
@@ -112,7 +124,7 @@ void set_least(const World& world, Actor& actor) {
   }
 }
 
-void count_limits(World& world, const Actor& actor) {
+void count_limits(WorldState& world, const Actor& actor) {
   if (!actor.stress.breakable) return;
   LimitsHit& limits = world.log.report.limits;
   if (!reports_contact_loads(world, actor)) {
@@ -125,10 +137,14 @@ void count_limits(World& world, const Actor& actor) {
   }
 }
 
-Actor make_actor(World& world, const Compound& compound) {
+Actor make_actor(WorldState& world, const Compound& compound) {
+  return make_actor(world, compound, Structure(compound));
+}
+
+Actor make_actor(WorldState& world, const Compound& compound, Structure structure) {
   Actor actor;
   actor.key = actor.root_key = actor.last_frame_key = world.actors.new_key();
-  actor.structure = Structure(compound);
+  actor.structure = std::move(structure);
   actor.is_static = actor.structure.is_anchored();
   actor.weight = mass_of(compound, *world.materials);
   actor.volume_m3 = volume(compound);
@@ -138,7 +154,7 @@ Actor make_actor(World& world, const Compound& compound) {
   return actor;
 }
 
-void set_strength(const World& world, Actor& actor) {
+void set_strength(const WorldState& world, Actor& actor) {
   actor.stress = {};
   actor.stress.breakable = !actor.is_kinematic && breaks_by_load(world, actor);
   actor.stress.since_step = world.clock.step;
@@ -147,7 +163,7 @@ void set_strength(const World& world, Actor& actor) {
   set_least(world, actor);
 }
 
-ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot) {
+ShapeDesc shape_of(const WorldState& world, const Actor& actor, ConvexSlot slot) {
   const Convex& convex = *actor.structure.convex(slot);
   const Material& material = world.material(convex.material);
   ShapeDesc shape;
@@ -159,7 +175,7 @@ ShapeDesc shape_of(const World& world, const Actor& actor, ConvexSlot slot) {
   return shape;
 }
 
-BodyDesc make_body_desc(const World& world, const Actor& actor, const Motion& motion) {
+BodyDesc make_body_desc(const WorldState& world, const Actor& actor, const Motion& motion) {
   BodyDesc body;
   body.com_R = actor.weight.com_R;
   body.X_WB = {motion.X_WR * actor.weight.com_R, motion.X_WR.rotation};
@@ -174,28 +190,53 @@ BodyDesc make_body_desc(const World& world, const Actor& actor, const Motion& mo
   actor.structure.for_each(
       [&](ConvexSlot slot, const Convex&) { body.shapes.push_back(shape_of(world, actor, slot)); });
   body.tag = actor.key;
+  body.filter = actor.filter;
   body.reports_load = reports_contact_loads(world, actor);
   return body;
 }
 
-double move_actor(World& world, const Actor& actor, const BodyState& state) {
+double move_actor(WorldState& world, const Actor& actor, const BodyState& state) {
   const double before_J = kinetic_J(actor, world.physics->state(actor.body));
   world.physics->set_state(actor.body, state);
   return kinetic_J(actor, world.physics->state(actor.body)) - before_J;
 }
 
-double push_actor(World& world, const Actor& actor, const Vec3& impulse_W, const Vec3& point_W) {
+double push_actor(WorldState& world, const Actor& actor, const Vec3& impulse_W,
+                  const Vec3& point_W) {
   const double before_J = kinetic_J(actor, world.physics->state(actor.body));
   world.physics->apply_impulse(actor.body, impulse_W, point_W);
   return kinetic_J(actor, world.physics->state(actor.body)) - before_J;
 }
 
-void add_compounds(World& world, std::span<const Solid> solids) {
+void remake_body(WorldState& world, Actor& actor) {
+  const Motion motion = motion_of(actor, world.physics->state(actor.body));
+  BodyDesc body = make_body_desc(world, actor, motion);
+  if (actor.structure.empty()) body.shapes = {ball_shape(world, actor)};
+  actor.body = world.physics->replace(std::span(&actor.body, 1), std::span(&body, 1))[0];
+  world.joints.reattach(*world.physics, actor);
+}
+
+Actor& add_structure(WorldState& world, const Solid& solid, Structure structure) {
+  Actor actor = make_actor(world, solid.compound, std::move(structure));
+  actor.filter = solid.filter;
+  actor.user_data = solid.user_data;
+  count_limits(world, actor);
+  const BodyDesc body = make_body_desc(
+      world, actor,
+      {solid.X_WR, {solid.X_WR * actor.weight.com_R, solid.velocity_W, solid.angular_velocity_W}});
+  world.meshes.add_to(std::span(&actor, 1), {});
+  actor.body = world.physics->replace({}, std::span(&body, 1))[0];
+  world.actors.add(std::move(actor));
+  return world.actors[world.actors.size() - 1];
+}
+
+void add_compounds(WorldState& world, std::span<const Solid> solids) {
   std::vector<Actor> actors;
   std::vector<BodyDesc> bodies;
   for (const Solid& solid : solids) {
-    actors.push_back(make_actor(world, solid.compound));
-    const Actor& actor = actors.back();
+    Actor& actor = actors.emplace_back(make_actor(world, solid.compound));
+    actor.filter = solid.filter;
+    actor.user_data = solid.user_data;
     count_limits(world, actor);
     const Vec3 com_W = solid.X_WR * actor.weight.com_R;
     bodies.push_back(make_body_desc(
@@ -209,8 +250,7 @@ void add_compounds(World& world, std::span<const Solid> solids) {
   }
 }
 
-void add_ball(World& world, const Ball& ball) {
-  const Material& material = world.material(ball.material);
+void add_ball(WorldState& world, const Ball& ball) {
   const double radius = ball.radius_m;
   Actor actor;
   actor.key = actor.root_key = actor.last_frame_key = world.actors.new_key();
@@ -218,6 +258,8 @@ void add_ball(World& world, const Ball& ball) {
   actor.weight.mass_kg = ball_mass_kg(ball, *world.materials);
   actor.weight.inertia_R = 0.4 * actor.weight.mass_kg * radius * radius * Mat3::Identity();
   actor.materials = {ball.material};
+  actor.filter = ball.filter;
+  actor.user_data = ball.user_data;
   actor.born_step = world.clock.step;
   actor.meshes = {world.meshes.add(make_ball_mesh(radius, ball.material))};
 
@@ -226,14 +268,9 @@ void add_ball(World& world, const Ball& ball) {
   body.velocity_W = ball.velocity_W;
   body.mass_kg = actor.weight.mass_kg;
   body.inertia_B = actor.weight.inertia_R;
-  ShapeDesc shape;
-  shape.kind = ShapeDesc::Kind::kSphere;
-  shape.radius_m = radius;
-  shape.friction = material.friction;
-  shape.restitution = material.restitution;
-  shape.rolling = material.rolling;
-  body.shapes = {shape};
+  body.shapes = {ball_shape(world, actor)};
   body.tag = actor.key;
+  body.filter = ball.filter;
   actor.body = world.physics->replace({}, std::span(&body, 1))[0];
   world.actors.add(std::move(actor));
 }

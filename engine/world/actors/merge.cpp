@@ -20,7 +20,7 @@ struct MergedMotion {
 
 /// Returns the motion of two merged bodies, whose mass properties `both` are in the rest frame of
 /// the first.
-MergedMotion merged_motion(const World& world, const Actor& a, const Actor& b,
+MergedMotion merged_motion(const WorldState& world, const Actor& a, const Actor& b,
                            const CompoundMass& both) {
   MergedMotion result;
   const std::array<const Actor*, 2> actors{&a, &b};
@@ -53,17 +53,14 @@ MergedMotion merged_motion(const World& world, const Actor& a, const Actor& b,
 }
 
 /// Applies the edit that adds the second actor to the first, and returns a new actor with both.
-Actor make_merged_actor(World& world, Actor& a, const Actor& b, const BreakEdit& edit) {
+Actor make_merged_actor(WorldState& world, Actor& a, const Actor& b, const BreakEdit& edit) {
   DrawnConvexes drawn_before;
   a.structure.for_each([&](ConvexSlot slot, const Convex& convex) {
     drawn_before[&convex] = {a.meshes[slot.value], a.hidden[slot.value]};
   });
   a.structure.apply(edit);
   Actor both = make_actor(world, a.structure.compound());
-  both.root_key = a.root_key;
-  both.last_frame_key = a.last_frame_key;
-  both.name = a.name;
-  both.rejoined = a.rejoined;
+  both.inherit(a);
   both.born_step = world.clock.step + 1;
   set_least(world, both);  // recomputed, as it is a fragment
   world.meshes.add_to(std::span(&both, 1), drawn_before);
@@ -79,7 +76,7 @@ Actor make_merged_actor(World& world, Actor& a, const Actor& b, const BreakEdit&
 
 }  // namespace
 
-void merge(World& world, std::uint32_t key, std::uint32_t other, const Rejoined& rejoined,
+void merge(WorldState& world, std::uint32_t key, std::uint32_t other, const Rejoined& rejoined,
            const Pose& X_AB) {
   std::vector<ConvexSlot> slot_of_b = rejoined.slot_of_b;
   if (world.actors.find(key)->is_static) {

@@ -7,6 +7,11 @@
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
+namespace {
+
+constexpr std::size_t kFewest = 1024;  // meshes, or requests, among which unneeded ones are sought
+
+}  // namespace
 
 MeshStore& Meshes::changeable() {
   if (std::exchange(published_, false)) store_ = std::make_shared<MeshStore>(*store_);
@@ -19,18 +24,27 @@ MeshIndex Meshes::add(std::shared_ptr<const Mesh> mesh) {
   return MeshIndex(store_->size() - 1);
 }
 
-std::shared_ptr<const MeshStore> Meshes::publish(const Actors& actors,
-                                                 std::span<const MeshIndex> others) {
+bool Meshes::is_needed(const Actors& actors, const Pending& one) {
+  const Actor* actor = actors.find(one.key);
+  return actor && actor->meshes[one.slot.value] == kMeshPending;
+}
+
+void Meshes::tidy(const Actors& actors, std::span<const MeshIndex> others) {
   if (kept_ > most_) free_unused(actors, others);
+  if (pending_.size() <= most_pending_) return;
+  std::erase_if(pending_, [&](const Pending& one) { return !is_needed(actors, one); });
+  most_pending_ = 2 * pending_.size() + kFewest;
+}
+
+std::shared_ptr<const MeshStore> Meshes::publish() {
   published_ = true;
   return store_;
 }
 
-/// Frees the meshes that are unused now and were at the last search, one frame ago: searches come
-/// in pairs. So the meshes of a frame live in the frame after it, between which a renderer
+/// Frees the meshes that are unused now and were at the last search, one step ago: searches come in
+/// pairs. So the meshes of a frame live in the frame after it, between which a renderer
 /// interpolates.
 void Meshes::free_unused(const Actors& actors, std::span<const MeshIndex> others) {
-  constexpr std::size_t kFewest = 1024;
   std::vector<std::uint8_t> used(store_->size(), 0);
   const auto use = [&](MeshIndex mesh) {
     if (!mesh.none() && mesh != kMeshPending) used[mesh.value] = 1;
@@ -93,10 +107,7 @@ void Meshes::draw(Actors& actors) {
   std::vector<Pending> todo = std::exchange(pending_, {});
   std::ranges::sort(todo);
   todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
-  std::erase_if(todo, [&](const Pending& one) {
-    const Actor* actor = actors.find(one.key);
-    return !actor || actor->meshes[one.slot.value] != kMeshPending;
-  });
+  std::erase_if(todo, [&](const Pending& one) { return !is_needed(actors, one); });
   std::vector<std::shared_ptr<const Mesh>> made(todo.size());
   for_chunks(todo.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -32,20 +32,23 @@ class Meshes {
   void hide(Actor& actor, ConvexSlot slot) { actor.meshes[slot.value] = {}; }
   /// Makes the requested meshes.
   void draw(Actors& actors);
-  /// Returns all meshes for a frame, which do not change afterwards. Those that neither this frame
-  /// nor the one before draws, on `actors` or as `others`, may be null, to free memory.
-  std::shared_ptr<const MeshStore> publish(const Actors& actors, std::span<const MeshIndex> others);
+  /// Frees memory at the end of a step: of requests for actors that are gone, and of meshes that
+  /// neither this step nor the one before needs, on `actors` or as `others`; these become null.
+  void tidy(const Actors& actors, std::span<const MeshIndex> others);
+  /// Returns all meshes for a frame, which do not change afterwards.
+  std::shared_ptr<const MeshStore> publish();
 
  private:
   MeshStore& changeable();
   void free_unused(const Actors& actors, std::span<const MeshIndex> others);
-
   /// A convex whose mesh has been requested.
   struct Pending {
     std::uint32_t key = 0;
     ConvexSlot slot;
     auto operator<=>(const Pending&) const = default;
   };
+  /// True if a request is of an actor that still needs it.
+  static bool is_needed(const Actors& actors, const Pending& one);
 
   std::shared_ptr<MeshStore> store_ = std::make_shared<MeshStore>();
   bool searched_ = false;             ///< True after the first search of a pair.
@@ -54,6 +57,7 @@ class Meshes {
   std::size_t most_ = 0;              ///< Number of them from which unused ones are sought.
   bool published_ = false;            ///< A frame shares the store: copy before a change.
   std::vector<Pending> pending_;      ///< Requests since the last draw().
+  std::size_t most_pending_ = 0;      ///< Number of them from which unneeded ones are sought.
 };
 
 }  // namespace sunder

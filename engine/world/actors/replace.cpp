@@ -10,7 +10,7 @@
 namespace sunder {
 namespace {
 
-Vec3 momentum_of(const World& world, std::span<const Actor> actors) {
+Vec3 momentum_of(const WorldState& world, std::span<const Actor> actors) {
   const BodyStates states = world.physics->states();
   Vec3 sum = Vec3::Zero();
   for (const Actor& actor : actors) {
@@ -19,7 +19,7 @@ Vec3 momentum_of(const World& world, std::span<const Actor> actors) {
   return sum;
 }
 
-double kinetic_J_of(const World& world, std::span<const Actor> actors) {
+double kinetic_J_of(const WorldState& world, std::span<const Actor> actors) {
   const BodyStates states = world.physics->states();
   double sum = 0;
   for (const Actor& actor : actors) sum += kinetic_J(actor, states[actor.body]);
@@ -27,7 +27,7 @@ double kinetic_J_of(const World& world, std::span<const Actor> actors) {
 }
 
 /// Returns true if a piece becomes a body: if it is anchored, held by a hinge, or large enough.
-bool is_body(const World& world, const Compound& piece, bool hinged) {
+bool is_body(const WorldState& world, const Compound& piece, bool hinged) {
   if (piece.is_anchored() || hinged) return true;
   return volume(piece) >= world.smallest_piece_factor *
                               world.material(piece.convexes[0]->material).smallest_piece_m3;
@@ -113,7 +113,7 @@ struct Pieces {
   std::vector<BodyDesc> bodies;
 
   /// Adds a piece as a body, or as debris if too small. Returns its key.
-  std::uint32_t add(World& world, const Compound& compound, bool hinged, const Actor& parent,
+  std::uint32_t add(WorldState& world, const Compound& compound, bool hinged, const Actor& parent,
                     const Motion& motion) {
     if (!is_body(world, compound, hinged)) {
       note_chip(world, compound, motion);
@@ -122,10 +122,7 @@ struct Pieces {
     Actor& piece = actors.emplace_back(make_actor(world, compound));
     // A piece that a hinge holds can break again in this step, as its parent could.
     piece.born_step = hinged ? parent.born_step : world.clock.step + 1;
-    piece.root_key = parent.root_key;
-    piece.last_frame_key = parent.last_frame_key;
-    piece.name = parent.name;
-    piece.rejoined = parent.rejoined;
+    piece.inherit(parent);
     set_least(world, piece);  // recomputed, as it is a fragment
     count_limits(world, piece);
     if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
@@ -145,7 +142,7 @@ DrawnConvexes drawn_convexes(const Actor& actor, std::span<const ConvexSlot> slo
 }
 
 /// Removes the convexes of the edit from the body of an actor that stays, and resets its state.
-void edit_remaining_body(World& world, Actor& actor, const BreakEdit& edit,
+void edit_remaining_body(WorldState& world, Actor& actor, const BreakEdit& edit,
                          std::span<const ConvexSlot> changed) {
   std::vector<std::uint32_t> removed_tags;
   for (const ConvexSlot slot : edit.removed) {
@@ -177,12 +174,12 @@ std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit) {
   return static_cast<std::uint32_t>(edit.loose.pieces.size()) + (stays ? 1 : 0);
 }
 
-bool fits_body_limit(const World& world, const BreakEdit& edit, std::size_t pieces_planned) {
+bool fits_body_limit(const WorldState& world, const BreakEdit& edit, std::size_t pieces_planned) {
   return world.actors.size() + pieces_planned + edit.loose.pieces.size() <=
          world.scene.limits.bodies;
 }
 
-BreakEvent make_break_event(const World& world, const Actor& actor, MaterialIndex material) {
+BreakEvent make_break_event(const WorldState& world, const Actor& actor, MaterialIndex material) {
   BreakEvent event;
   event.time_s = world.clock.time_s();
   event.parent_key = actor.key;
@@ -194,7 +191,7 @@ BreakEvent make_break_event(const World& world, const Actor& actor, MaterialInde
   return event;
 }
 
-std::vector<std::uint64_t> apply_break(World& world, std::uint32_t key, BreakEdit& edit) {
+std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, BreakEdit& edit) {
   Actor& parent = *world.actors.find(key);
   const Motion motion = motion_of(parent, world.physics->state(parent.body));
   std::vector<ConvexSlot> changed;

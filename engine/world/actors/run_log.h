@@ -39,14 +39,14 @@ struct RunLog {
     plastic_J += work_J;
     report.energy.bending += work_J;
   }
-  /// Ends the current frame: completes the energy and momentum of its report. In the first frame
-  /// all kinetic energy is the scene's.
-  void end_frame(FrameReport& frame, bool is_first) {
-    if (is_first) frame.energy.script = frame.kinetic_J;
-    frame.energy_residual_J = frame.kinetic_J - kinetic_J - frame.energy.sum();
-    kinetic_J = frame.kinetic_J;
-    frame.plastic_J = plastic_J;
-    frame.momentum_residual = momentum_moved_Ns > 0 ? momentum_error_Ns / momentum_moved_Ns : 0;
+  /// Ends the current frame: completes the energy and momentum of its report, whose sums over
+  /// bodies are known. In the first frame all kinetic energy is the scene's.
+  void end_frame(bool is_first) {
+    if (is_first) report.energy.script = report.kinetic_J;
+    report.energy_residual_J = report.kinetic_J - kinetic_J - report.energy.sum();
+    kinetic_J = report.kinetic_J;
+    report.plastic_J = plastic_J;
+    report.momentum_residual = momentum_moved_Ns > 0 ? momentum_error_Ns / momentum_moved_Ns : 0;
     momentum_error_Ns = momentum_moved_Ns = 0;
   }
 };

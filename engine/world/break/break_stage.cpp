@@ -22,7 +22,7 @@ bool parts_at_bonds(const Material& material) {
 }
 
 /// Makes the planned breaks of a trial from the loads that are strong enough for the material.
-void add_impacts(const World& world, Trial& trial) {
+void add_impacts(const WorldState& world, Trial& trial) {
   trial.planned.clear();
   const BodyStates states = world.physics->states();
   for (std::uint32_t i = 0; i < trial.loads.size(); ++i) {
@@ -66,7 +66,7 @@ void add_impacts(const World& world, Trial& trial) {
 
 /// Returns true if a body of a trial was broken by other trials: if the body is gone, a convex with
 /// a contact is gone, or the body has a joint or rope.
-bool is_stale(const World& world, const Trial& trial, std::span<const std::uint32_t> broken) {
+bool is_stale(const WorldState& world, const Trial& trial, std::span<const std::uint32_t> broken) {
   const std::vector<ProbeBody>& bodies = trial.probe->bodies();
   for (const std::uint32_t key : broken) {
     const auto body = std::ranges::find(bodies, key, &ProbeBody::key);
@@ -88,7 +88,7 @@ bool is_stale(const World& world, const Trial& trial, std::span<const std::uint3
   return false;
 }
 
-bool is_worth_deferring(const World& world, const Trial& trial) {
+bool is_worth_deferring(const WorldState& world, const Trial& trial) {
   return std::ranges::any_of(trial.planned, [&](const PlannedBreak& planned) {
     return planned.impact.energy_J > kMinDeferredShare * world.log.kinetic_J;
   });
@@ -102,7 +102,7 @@ bool is_undecided(const Trial& trial) {
 }
 
 /// Saves the progress of unfinished plans by stress for the next step.
-void save_progress(World& world, std::span<PlannedBreak> all) {
+void save_progress(WorldState& world, std::span<PlannedBreak> all) {
   for (PlannedBreak& planned : all)
     if (planned.stressed.undecided)
       world.actors.find(planned.impact.key)->stress.memory = std::move(planned.stressed.memory);
@@ -110,7 +110,7 @@ void save_progress(World& world, std::span<PlannedBreak> all) {
 
 /// Carries out the breaks of a trial for which its energy suffices, and appends the keys of the
 /// broken actors to `all_broken`. Returns false if there are none.
-bool carry_out_breaks(World& world, const Breaker& breaker, Trial& trial,
+bool carry_out_breaks(WorldState& world, const Breaker& breaker, Trial& trial,
                       std::vector<std::uint32_t>& all_broken) {
   std::vector<ProbeBreak> wanted;
   std::vector<std::uint32_t> of_load(trial.loads.size());
@@ -145,7 +145,7 @@ bool carry_out_breaks(World& world, const Breaker& breaker, Trial& trial,
 
 /// Removes and returns the trials that strike a static solid that an earlier trial strikes too:
 /// their contacts may be gone once the earlier trial is resolved.
-std::vector<Trial> postpone_conflicts(const World& world, std::vector<Trial>& trials) {
+std::vector<Trial> postpone_conflicts(const WorldState& world, std::vector<Trial>& trials) {
   std::set<std::uint32_t> claimed;
   std::vector<Trial> now, later;
   for (Trial& trial : trials) {
@@ -174,7 +174,8 @@ PlannedBreak planned_by_blast(const Actor& actor, const ActorImpact& impact) {
   return planned;
 }
 
-std::vector<Trial> find_trials(World& world, const DeferredImpacts& deferred, double min_energy_J) {
+std::vector<Trial> find_trials(WorldState& world, const DeferredImpacts& deferred,
+                               double min_energy_J) {
   WorkSpan span(world.log.work_counts, Stage::kBreak, "clusters found");
   std::vector<Trial> trials;
   LimitsHit& limits = world.log.report.limits;
@@ -184,7 +185,7 @@ std::vector<Trial> find_trials(World& world, const DeferredImpacts& deferred, do
   return trials;
 }
 
-void plan(World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
+void plan(WorldState& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
   WorkSpan span(world.log.work_counts, Stage::kBreak, "breaks planned");
   span.count(all.size());
   plan_all(world, breaker, all);
@@ -208,7 +209,7 @@ std::vector<PlannedBreak*> planned_in(std::vector<Trial>& trials) {
 
 /// Moves an impact whose solid another blast has broken to the nearest piece of the solid; returns
 /// false if there is no piece.
-bool retarget(const World& world, std::uint32_t root_key, ActorImpact& impact) {
+bool retarget(const WorldState& world, std::uint32_t root_key, ActorImpact& impact) {
   const Actor* known = world.actors.find(impact.key);
   if (known && known->structure.has(impact.convex)) return true;
   const BodyStates states = world.physics->states();
@@ -240,7 +241,7 @@ bool BreakBudget::try_spend(std::uint32_t parts) {
 
 /// Probes run in batches, those with the most energy first, so that the budget can stop them. A
 /// probe with the initial state of an earlier one of the step without a break is not run again.
-void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
+void BreakStage::run_probes(WorldState& world, std::vector<Trial>& trials) {
   WorkSpan span(world.log.work_counts, Stage::kBreak, "clusters asked");
   std::vector<Trial*> due;
   for (Trial& trial : trials) {
@@ -276,11 +277,11 @@ void BreakStage::run_probes(World& world, std::vector<Trial>& trials) {
   std::erase_if(trials, [](const Trial& trial) { return trial.loads.empty(); });
 }
 
-double BreakStage::min_impact_energy_J(const World& world) const {
+double BreakStage::min_impact_energy_J(const WorldState& world) const {
   return budget_.left() > 0 ? 0 : kMinDeferredShare * world.log.kinetic_J;
 }
 
-bool BreakStage::prepare_within_budget(World& world, const Breaker& breaker,
+bool BreakStage::prepare_within_budget(WorldState& world, const Breaker& breaker,
                                        std::span<PlannedBreak> all) {
   std::uint32_t parts = 0;
   for (PlannedBreak& planned : all) {
@@ -300,13 +301,13 @@ void BreakStage::share_budget(std::span<PlannedBreak* const> resumable) const {
       planned->max_bond_evaluations = kBondEvaluationsPerPart * budget_.left() / plans;
 }
 
-void BreakStage::defer(World& world, Trial& trial) {
+void BreakStage::defer(WorldState& world, Trial& trial) {
   trial.probe->end_early();
   world.log.report.energy.gravity += apply_motion(world, *trial.probe);
   deferred_impacts_.add(world, *trial.probe);
 }
 
-bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
+bool BreakStage::break_by_blasts(WorldState& world, const Breaker& breaker,
                                  std::span<const ActorImpact> impacts) {
   for (const ActorImpact& impact : impacts) {
     const auto same = [&](const ActorImpact& known) {
@@ -358,7 +359,7 @@ bool BreakStage::break_by_blasts(World& world, const Breaker& breaker,
   return broke;
 }
 
-bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial> trials,
+bool BreakStage::resolve(WorldState& world, const Breaker& breaker, std::vector<Trial> trials,
                          bool rounds_left) {
   bool again = false;
   std::vector<std::uint32_t> broken;  // since stale trials were last removed
@@ -415,7 +416,8 @@ bool BreakStage::resolve(World& world, const Breaker& breaker, std::vector<Trial
   return again;
 }
 
-void BreakStage::run(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts) {
+void BreakStage::run(WorldState& world, const Breaker& breaker,
+                     std::span<const ActorImpact> impacts) {
   const auto collide = [&] {
     const WorkSpan span(world.log.work_counts, Stage::kBreak, "contacts found anew");
     world.physics->collide(world.clock.horizon_s());

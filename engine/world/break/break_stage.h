@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -18,7 +19,7 @@
 #include "engine/model/breaker.h"
 #include "engine/model/impact_probe.h"
 #include "engine/world/actors/impact.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 #include "engine/world/break/deferred_impacts.h"
 #include "engine/world/break/planned_break.h"
 
@@ -29,7 +30,11 @@ class BreakBudget {
  public:
   explicit BreakBudget(std::uint32_t a_frame) : a_frame_(a_frame) {}
 
-  void begin_frame() { left_ = a_frame_, untouched_ = true; }
+  /// `share` is the length of the frame, in sixtieths of a second.
+  void begin_frame(double share = 1) {
+    left_ = static_cast<std::uint32_t>(std::lround(share * a_frame_));
+    untouched_ = true;
+  }
   bool spent() const { return left_ == 0 && !untouched_; }
   std::uint32_t left() const { return left_; }
   /// Spends `parts`; returns false, and empties the budget, if less is left. The first spending of
@@ -62,30 +67,34 @@ class BreakStage {
  public:
   explicit BreakStage(const Limits& limits) : budget_(limits.parts_a_frame) {}
 
-  void begin_frame() { budget_.begin_frame(); }
+  /// `share` is the length of the frame, in sixtieths of a second.
+  void begin_frame(double share) { budget_.begin_frame(share); }
   /// Breaks the solids that `impacts` of blasts and speculative contacts can break. Contacts are
   /// found anew after every round of breaks.
-  void run(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
+  void run(WorldState& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
   /// Number of deferred blast impacts and clusters.
   std::uint32_t deferred() const;
 
  private:
   /// Advances the probes without known loads to their next loads; removes trials without any.
-  void run_probes(World& world, std::vector<Trial>& trials);
+  void run_probes(WorldState& world, std::vector<Trial>& trials);
   /// Least energy of an impact that is probed: 0 while the frame's budget lasts.
-  double min_impact_energy_J(const World& world) const;
+  double min_impact_energy_J(const WorldState& world) const;
   /// Prepares impacts for planning and spends their cost; false if the budget does not suffice.
-  bool prepare_within_budget(World& world, const Breaker& breaker, std::span<PlannedBreak> all);
+  bool prepare_within_budget(WorldState& world, const Breaker& breaker,
+                             std::span<PlannedBreak> all);
   /// Shares the rest of the budget among the plans by stress that may be resumed in the next frame.
   void share_budget(std::span<PlannedBreak* const> resumable) const;
   /// Pauses the bodies of a trial until the next step, in which a new probe is made of them.
-  void defer(World& world, Trial& trial);
+  void defer(WorldState& world, Trial& trial);
   /// Breaks solids by the impacts of blasts; returns true if something broke.
-  bool break_by_blasts(World& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
+  bool break_by_blasts(WorldState& world, const Breaker& breaker,
+                       std::span<const ActorImpact> impacts);
   /// Advances each probe until it breaks something, reaches the end of the step, or is deferred (if
   /// no `rounds_left`, or over the budget). Returns true if another round is due, in which solids
   /// that another trial has broken meanwhile are probed as their pieces.
-  bool resolve(World& world, const Breaker& breaker, std::vector<Trial> trials, bool rounds_left);
+  bool resolve(WorldState& world, const Breaker& breaker, std::vector<Trial> trials,
+               bool rounds_left);
 
   BreakBudget budget_;
   /// Fingerprints of this step's probes without a break.

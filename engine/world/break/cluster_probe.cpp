@@ -20,7 +20,7 @@ constexpr std::uint32_t kOutside = 0xffffffff;
 /// Collects the bodies, contacts and joints of a cluster.
 class ProbeBuilder {
  public:
-  ProbeBuilder(const World& world, const JointGraph& joints, const Cluster& cluster)
+  ProbeBuilder(const WorldState& world, const JointGraph& joints, const Cluster& cluster)
       : world_(world), states_(world.physics->states()), joints_(joints), cluster_(cluster) {
     bodies_.reserve(cluster.size());
     for (const Actor* actor : cluster) {
@@ -169,7 +169,7 @@ class ProbeBuilder {
     probe_joints_.push_back(probe_joint);
   }
 
-  const World& world_;
+  const WorldState& world_;
   const BodyStates states_;
   const JointGraph& joints_;
   const Cluster& cluster_;
@@ -181,13 +181,13 @@ class ProbeBuilder {
 
 }  // namespace
 
-bool may_break(const World& world, const Actor* actor, double energy_J, double impulse_Ns,
+bool may_break(const WorldState& world, const Actor* actor, double energy_J, double impulse_Ns,
                double speed_m_s) {
   if (!actor || !actor->impact_limits().exceeded(energy_J, impulse_Ns, speed_m_s)) return false;
   return actor->is_static || actor->born_step != world.clock.step + 1;
 }
 
-std::unique_ptr<ImpactProbe> make_probe(const World& world, const JointGraph& joints,
+std::unique_ptr<ImpactProbe> make_probe(const WorldState& world, const JointGraph& joints,
                                         const Cluster& cluster) {
   return ProbeBuilder(world, joints, cluster).probe();
 }

@@ -29,21 +29,21 @@ struct Seed {
 };
 
 /// Returns true if the impact of a seed, direct or passed on, may break an actor.
-bool may_break(const World& world, const Actor* actor, const Seed& seed) {
+bool may_break(const WorldState& world, const Actor* actor, const Seed& seed) {
   return may_break(world, actor, seed.energy_J, kMaxImpulseGain * seed.impulse_Ns,
                    kMaxImpulseGain * seed.speed_m_s);
 }
 
 /// Returns the most moving bodies of a cluster, the nearest to the seed first; `direct`: a body of
 /// the seed may break, or else the impact can only be passed on.
-std::size_t most_bodies(const World& world, bool direct) {
+std::size_t most_bodies(const WorldState& world, bool direct) {
   const std::size_t most = world.scene.limits.cluster_bodies;
   return direct ? most : std::max<std::size_t>(2, most * 3 / 8);
 }
 
 /// Returns the seeds with energy enough to break an actor, in the order of find_clusters(). Counts
 /// seeds that may break an actor of theirs, and have no more than `min_energy_J`.
-std::vector<Seed> find_seeds(const World& world, const DeferredImpacts& deferred,
+std::vector<Seed> find_seeds(const WorldState& world, const DeferredImpacts& deferred,
                              const JointGraph& joints, double min_energy_J, LimitsHit& limits) {
   double least_of_all_J = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) {
@@ -80,11 +80,11 @@ std::vector<Seed> find_seeds(const World& world, const DeferredImpacts& deferred
   return seeds;
 }
 
-/// Membership of actors in clusters. Actors are given by their index in World::actors; the ground
-/// has the index after the last.
+/// Membership of actors in clusters. Actors are given by their index in WorldState::actors; the
+/// ground has the index after the last.
 class ClusterMembership {
  public:
-  explicit ClusterMembership(const World& world)
+  explicit ClusterMembership(const WorldState& world)
       : world_(world),
         place_of_key_(world.actors.next_key(), ground()),
         all_(world.actors.size() + 1) {
@@ -117,7 +117,7 @@ class ClusterMembership {
 
   std::uint32_t ground() const { return static_cast<std::uint32_t>(world_.actors.size()); }
 
-  const World& world_;
+  const WorldState& world_;
   std::vector<std::uint32_t> place_of_key_;
   std::vector<Member> all_;
   std::uint32_t clusters_ = 0;  ///< Number of clusters so far.
@@ -126,7 +126,7 @@ class ClusterMembership {
 /// Breadth-first search of the cluster of a seed along contacts and joints.
 class ClusterSearch {
  public:
-  ClusterSearch(const World& world, const JointGraph& joints, ClusterMembership& members)
+  ClusterSearch(const WorldState& world, const JointGraph& joints, ClusterMembership& members)
       : world_(world), joints_(joints), members_(members) {
     members_.begin_cluster();
   }
@@ -194,7 +194,7 @@ class ClusterSearch {
     members_.claim(place);
   }
 
-  const World& world_;
+  const WorldState& world_;
   const JointGraph& joints_;
   ClusterMembership& members_;
   std::vector<std::uint32_t> places_;  ///< All bodies of the cluster, static ones included.
@@ -204,7 +204,7 @@ class ClusterSearch {
 
 }  // namespace
 
-std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
+std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const WorldState& world,
                                                         const DeferredImpacts& deferred,
                                                         double min_energy_J, LimitsHit& limits) {
   const JointGraph joints(world);
@@ -228,7 +228,7 @@ std::vector<std::unique_ptr<ImpactProbe>> find_clusters(const World& world,
   return probes;
 }
 
-double apply_motion(World& world, const ImpactProbe& probe) {
+double apply_motion(WorldState& world, const ImpactProbe& probe) {
   double gain_J = 0;
   for (std::size_t b = 0; b < probe.bodies().size(); ++b) {
     const ProbeMotion& motion = probe.motions()[b];

@@ -12,7 +12,7 @@
 namespace sunder {
 namespace {
 
-void pause_all(World& world, std::span<const DeferredBody> deferred) {
+void pause_all(WorldState& world, std::span<const DeferredBody> deferred) {
   std::vector<BodyId> bodies;
   for (const DeferredBody& body : deferred) bodies.push_back(world.actors.find(body.key)->body);
   world.physics->pause(bodies);
@@ -22,7 +22,7 @@ bool moves(const BodyState& state) {
   return !state.velocity_W.isZero(0) || !state.angular_velocity_W.isZero(0);
 }
 
-std::set<std::uint32_t> find_driven(const World& world) {
+std::set<std::uint32_t> find_driven(const WorldState& world) {
   std::set<std::uint32_t> driven;
   std::vector<BodyId> layer;
   const BodyStates states = world.physics->states();
@@ -46,8 +46,8 @@ std::set<std::uint32_t> find_driven(const World& world) {
 }
 
 /// Returns true if `other` would hit a body at rest at a point where they may touch.
-bool will_hit(const World& world, const BodyState& other, const Vec3& arm_W, const Vec3& to_other_W,
-              double separation_m) {
+bool will_hit(const WorldState& world, const BodyState& other, const Vec3& arm_W,
+              const Vec3& to_other_W, double separation_m) {
   const Vec3 velocity_W = other.velocity_W + other.angular_velocity_W.cross(arm_W);
   const double closing_m_s = -velocity_W.dot(to_other_W);
   return closing_m_s > kPauseSpeed_m_s && closing_m_s * world.clock.dt_s > separation_m;
@@ -55,7 +55,7 @@ bool will_hit(const World& world, const BodyState& other, const Vec3& arm_W, con
 
 }  // namespace
 
-void DeferredImpacts::begin_step(const World& world) {
+void DeferredImpacts::begin_step(const WorldState& world) {
   clusters_ = 0;
   bodies_.clear();
   invalidate_driven();
@@ -81,13 +81,13 @@ void DeferredImpacts::release_first() {
   queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-bool DeferredImpacts::may_defer(const World& world, const ImpactProbe& cluster) {
+bool DeferredImpacts::may_defer(const WorldState& world, const ImpactProbe& cluster) {
   if (!driven_) driven_ = find_driven(world);
   return std::ranges::none_of(cluster.bodies(),
                               [&](const ProbeBody& body) { return driven_->contains(body.key); });
 }
 
-void DeferredImpacts::add(World& world, const ImpactProbe& cluster) {
+void DeferredImpacts::add(WorldState& world, const ImpactProbe& cluster) {
   const std::size_t first = bodies_.size();
   for (const ProbeBody& body : cluster.bodies()) {
     if (body.inverse_mass <= 0) continue;
@@ -98,7 +98,7 @@ void DeferredImpacts::add(World& world, const ImpactProbe& cluster) {
   ++clusters_;
 }
 
-void DeferredImpacts::end_step(World& world) {
+void DeferredImpacts::end_step(WorldState& world) {
   std::erase_if(queue_, [&](const DeferredBody& body) { return !world.actors.find(body.key); });
   for (std::size_t i = 0; i < queue_.size(); ++i) {
     if (i == 0 || queue_[i].cluster != queue_[i - 1].cluster) ++clusters_;
@@ -111,7 +111,7 @@ void DeferredImpacts::end_step(World& world) {
   last_step_ = std::exchange(bodies_, {});
 }
 
-void DeferredImpacts::pause_bodies_that_hit(World& world) {
+void DeferredImpacts::pause_bodies_that_hit(WorldState& world) {
   if (bodies_.empty()) return;
   if (!driven_) driven_ = find_driven(world);
   std::map<std::uint32_t, DeferredBody> deferred;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/model/impact_probe.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -25,7 +25,7 @@ struct DeferredBody {
 class DeferredImpacts {
  public:
   /// Begins a step: clusters deferred in the last one enter the queue, the longest deferred first.
-  void begin_step(const World& world);
+  void begin_step(const WorldState& world);
   /// Removes the first clusters from the queue, so that they are probed again.
   void release_first();
   bool queue_empty() const { return queue_.empty(); }
@@ -33,11 +33,11 @@ class DeferredImpacts {
   void invalidate_driven() { driven_.reset(); }
   /// Returns true if no body of a cluster is in contact, direct or through others, with a moving
   /// kinematic body.
-  bool may_defer(const World& world, const ImpactProbe& cluster);
+  bool may_defer(const WorldState& world, const ImpactProbe& cluster);
   /// Defers the bodies of a cluster, whose probe has ended by end_early(), to the next step.
-  void add(World& world, const ImpactProbe& cluster);
+  void add(WorldState& world, const ImpactProbe& cluster);
   /// Ends a step: clusters still in the queue stay deferred. Calls Physics::pause() for all bodies.
-  void end_step(World& world);
+  void end_step(WorldState& world);
 
   /// Returns the first step that deferred a body; `otherwise` if the body was not deferred in the
   /// last step.
@@ -53,7 +53,7 @@ class DeferredImpacts {
 
  private:
   /// Defers the bodies that would hit a deferred one in this step, directly or through others.
-  void pause_bodies_that_hit(World& world);
+  void pause_bodies_that_hit(WorldState& world);
 
   std::vector<DeferredBody> last_step_;  ///< Deferred in the last step; ascending by key.
   std::vector<DeferredBody> queue_;   ///< Those of last_step_ not released yet, cluster by cluster.

@@ -9,7 +9,7 @@
 
 namespace sunder {
 
-JointGraph::JointGraph(const World& world) : world_(world), states_(world.physics->states()) {
+JointGraph::JointGraph(const WorldState& world) : world_(world), states_(world.physics->states()) {
   const std::vector<Joints::Live>& joints = world.joints.live();
   for (std::uint32_t i = 0; i < joints.size(); ++i) {
     ends_.push_back({joints[i].a.key, i});

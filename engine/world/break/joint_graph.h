@@ -8,7 +8,7 @@
 
 #include "engine/model/body_states.h"
 #include "engine/model/physics.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -21,7 +21,7 @@ class JointGraph {
     std::uint32_t joint = 0;  ///< Index in Joints::live().
   };
 
-  explicit JointGraph(const World& world);
+  explicit JointGraph(const WorldState& world);
 
   /// Returns the joint ends at an actor.
   std::span<const End> ends_at(std::uint32_t key) const;
@@ -47,7 +47,7 @@ class JointGraph {
   Assembly single_body(std::uint32_t key) const;
   Assembly assembly(std::uint32_t key) const;
 
-  const World& world_;
+  const WorldState& world_;
   const BodyStates states_;
   std::vector<End> ends_;                   ///< In order of key, then joint.
   std::vector<std::uint32_t> assembly_of_;  ///< Per joint: index in assemblies_.

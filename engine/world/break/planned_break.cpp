@@ -18,7 +18,7 @@ namespace sunder {
 namespace {
 
 /// Returns the fracture energy of the new crack surface; each crack has two sides.
-double crack_energy_J(const World& world, const BreakEdit& edit) {
+double crack_energy_J(const WorldState& world, const BreakEdit& edit) {
   double energy = 0;
   for (const ExposedFace& face : edit.loose.exposed) {
     energy += 0.5 * face.area_m2 * world.material(face.material).toughness_J_m2;
@@ -26,7 +26,8 @@ double crack_energy_J(const World& world, const BreakEdit& edit) {
   return energy;
 }
 
-double crack_energy_J(const World& world, const Structure& structure, std::span<const Bond> cut) {
+double crack_energy_J(const WorldState& world, const Structure& structure,
+                      std::span<const Bond> cut) {
   const auto material = [&](std::uint32_t slot) -> const Material& {
     return world.material(structure.convex(ConvexSlot(slot))->material);
   };
@@ -50,7 +51,8 @@ double area_m2(const PlannedBreak& planned) {
 
 /// Returns true if the solid breaks at the point of impact before load reaches the rest of it: the
 /// energy suffices, and the impact is too fast for waves to carry the load away.
-bool breaks_locally(const World& world, const Structure& structure, const PlannedBreak& planned) {
+bool breaks_locally(const WorldState& world, const Structure& structure,
+                    const PlannedBreak& planned) {
   if (!planned.by_pattern || !planned.edit.changed || planned.needed_J >= planned.impact.energy_J)
     return false;
   const Convex& convex = *structure.convex(planned.impact.convex);
@@ -62,7 +64,7 @@ bool breaks_locally(const World& world, const Structure& structure, const Planne
 /// transmitted before the solid is sheared around the striker: J = τ A e / c, the shear strength τ
 /// on the sides A of the plug until the shear wave has passed the thickness e. Returns false if
 /// that impulse cannot overload a bond.
-bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak& planned) {
+bool reduce_to_transmitted(const WorldState& world, const Actor& actor, PlannedBreak& planned) {
   if (!planned.command.plug) return true;
   const Plug& plug = *planned.command.plug;
   const Material& material =
@@ -84,7 +86,7 @@ bool reduce_to_transmitted(const World& world, const Actor& actor, PlannedBreak&
 /// Chooses the mode of break that would come first if the impact grew from zero: by pattern at the
 /// share of the energy at which its local part suffices for the cracks, or by stress at the share
 /// at which a bond is overloaded. Overload within the reach of the pattern counts for the pattern.
-void choose_break_mode(const World& world, const Structure& structure, PlannedBreak& planned) {
+void choose_break_mode(const WorldState& world, const Structure& structure, PlannedBreak& planned) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const ImpulsiveStress& impulsive_stress = planned.stressed.impulsive_stress;
   const double overloads = 1 / (impulsive_stress.worst * impulsive_stress.worst),
@@ -115,7 +117,7 @@ double reach_of(const StructureImpact& hit) {
 }
 
 /// Adds the striker's section, mass and speed to a hit, and the thickness of the actor behind it.
-void add_striker(const World& world, const PlannedBreak& planned, const Actor& actor,
+void add_striker(const WorldState& world, const PlannedBreak& planned, const Actor& actor,
                  const Pose& X_WB, StructureImpact& hit) {
   const Actor* striker = world.actors.find(planned.striker);
   const ActorImpact& impact = planned.impact;
@@ -158,7 +160,7 @@ double volume_within(const Structure& structure, const Vec3& center_R, double ra
 }
 
 /// Returns the impact in the actor's rest frame.
-StructureImpact hit_of(const World& world, const PlannedBreak& planned, const Actor& actor,
+StructureImpact hit_of(const WorldState& world, const PlannedBreak& planned, const Actor& actor,
                        const Pose& X_WB) {
   const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
@@ -181,7 +183,7 @@ double bent_m3(const Convex& convex) {
 
 /// Returns the particle speed behind the impact wave in the struck solid as a share of the impact's
 /// speed: Z₁ / (Z₁ + Z₂), with the impedances of striker and solid; 1 for plates, which bend.
-double share_of_speed(const World& world, const Convex& convex, const Actor* striker) {
+double share_of_speed(const WorldState& world, const Convex& convex, const Actor* striker) {
   if (is_thin(convex)) return 1;
   const double striker_Pa_s_m = striker && !striker->materials.empty()
                                     ? world.material(striker->materials[0]).impedance_Pa_s_m()
@@ -191,7 +193,7 @@ double share_of_speed(const World& world, const Convex& convex, const Actor* str
 
 }  // namespace
 
-bool breaks_where_struck(const World& world, const Actor& actor, const ImpactLoad& load,
+bool breaks_where_struck(const WorldState& world, const Actor& actor, const ImpactLoad& load,
                          const Actor* striker) {
   const Convex& convex = *actor.structure.convex(ConvexSlot(load.shape));
   const Material& material = world.material(convex.material);
@@ -212,7 +214,7 @@ bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
   return speed_m_s * material.density_kg_m3 * material.shear_wave_m_s() > material.shear_Pa;
 }
 
-void prepare_command(const World& world, const Breaker& breaker, std::uint64_t event,
+void prepare_command(const WorldState& world, const Breaker& breaker, std::uint64_t event,
                      PlannedBreak& planned) {
   const ActorImpact& impact = planned.impact;
   const Actor& actor = *world.actors.find(impact.key);
@@ -222,10 +224,14 @@ void prepare_command(const World& world, const Breaker& breaker, std::uint64_t e
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
+  if (impact.pattern) {
+    planned.command.pattern = *impact.pattern;
+    planned.command.plug.reset();
+  }
   planned.swept = {std::move(hit.section_R), hit.point_R, hit.direction_R, hit.thickness_m};
 }
 
-std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
+std::uint32_t parts_to_cut(const WorldState& world, const PlannedBreak& planned) {
   const BreakCommand& command = planned.command;
   const Structure& structure = world.actors.find(planned.impact.key)->structure;
   const std::size_t reached = structure.within(command.X_RP.position, command.radius_m).size();
@@ -234,7 +240,7 @@ std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned) {
   return static_cast<std::uint32_t>(cells + kPartsPerConvex * reached);
 }
 
-void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
+void plan_all(const WorldState& world, const Breaker& breaker, std::span<PlannedBreak* const> all) {
   const BodyStates states = world.physics->states();
   for_chunks(all.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -276,13 +282,14 @@ void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak
   });
 }
 
-Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t pieces_planned) {
+Outcome outcome_of(const WorldState& world, const PlannedBreak& planned,
+                   std::size_t pieces_planned) {
   if (!planned.breaks) return Outcome::kHolds;
   return fits_body_limit(world, planned.edit, pieces_planned) ? Outcome::kBreaks
                                                               : Outcome::kBodyLimit;
 }
 
-void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) {
+void record_outcome(WorldState& world, const PlannedBreak& planned, Outcome outcome) {
   LimitsHit& limits = world.log.report.limits;
   if (outcome == Outcome::kBodyLimit) ++limits[Limit::kBodies];
   if (outcome != Outcome::kHolds) return;
@@ -314,7 +321,7 @@ void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome) 
                    : energy_J);
 }
 
-void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned) {
+void break_actor(WorldState& world, const Breaker& breaker, PlannedBreak& planned) {
   const ActorImpact& impact = planned.impact;
   Actor& actor = *world.actors.find(impact.key);
   const std::vector<ExposedFace>& bare = planned.edit.loose.exposed;

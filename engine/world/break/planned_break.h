@@ -13,7 +13,7 @@
 #include "engine/model/breaker.h"
 #include "engine/model/impact_probe.h"
 #include "engine/world/actors/impact.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -58,7 +58,7 @@ struct PlannedBreak {
 /// Returns true if an impact breaks the convex that it strikes by its pattern: if the stress of the
 /// wave or the strain energy of the solid exceeds the convex's limit (docs/decisions/049).
 /// `striker` is null for the ground.
-bool breaks_where_struck(const World& world, const Actor& actor, const ImpactLoad& load,
+bool breaks_where_struck(const WorldState& world, const Actor& actor, const ImpactLoad& load,
                          const Actor* striker);
 
 /// Returns true if an impact at this speed shears the solid at the striker's edge before waves
@@ -66,13 +66,13 @@ bool breaks_where_struck(const World& world, const Actor& actor, const ImpactLoa
 bool breaks_before_waves_arrive(const Material& material, double speed_m_s);
 
 /// Makes the break command of the impact, and the prism that its striker sweeps.
-void prepare_command(const World& world, const Breaker& breaker, std::uint64_t event,
+void prepare_command(const WorldState& world, const Breaker& breaker, std::uint64_t event,
                      PlannedBreak& planned);
 /// Returns the approximate number of parts that the command cuts, the measure of its cost
 /// (docs/decisions/032).
-std::uint32_t parts_to_cut(const World& world, const PlannedBreak& planned);
+std::uint32_t parts_to_cut(const WorldState& world, const PlannedBreak& planned);
 /// Plans prepared breaks, in parallel, without changes to the world.
-void plan_all(const World& world, const Breaker& breaker, std::span<PlannedBreak* const> all);
+void plan_all(const WorldState& world, const Breaker& breaker, std::span<PlannedBreak* const> all);
 
 enum class Outcome {
   kHolds,      ///< The impact has too little energy for the crack.
@@ -80,12 +80,13 @@ enum class Outcome {
   kBreaks,
 };
 /// Returns the outcome of a planned break if other breaks of the step add `pieces_planned` pieces.
-Outcome outcome_of(const World& world, const PlannedBreak& planned, std::size_t pieces_planned = 0);
+Outcome outcome_of(const WorldState& world, const PlannedBreak& planned,
+                   std::size_t pieces_planned = 0);
 /// Counts limits that were reached; after an impact that breaks nothing, raises the actor's limits
 /// so that similar impacts are not planned again.
-void record_outcome(World& world, const PlannedBreak& planned, Outcome outcome);
+void record_outcome(WorldState& world, const PlannedBreak& planned, Outcome outcome);
 
 /// Breaks the actor of a planned break whose energy has been taken from the motion.
-void break_actor(World& world, const Breaker& breaker, PlannedBreak& planned);
+void break_actor(WorldState& world, const Breaker& breaker, PlannedBreak& planned);
 
 }  // namespace sunder

@@ -61,7 +61,7 @@ double inverse_effective_mass(const Actor& actor, const BodyState& state, const 
 }
 
 /// Returns true if convexes that stay in place are in the prism that the striker sweeps.
-bool is_blocked(const World& world, const PlannedBreak& planned) {
+bool is_blocked(const WorldState& world, const PlannedBreak& planned) {
   const Actor* left = world.actors.find(planned.impact.key);
   if (planned.command.plug) return !planned.command.plug->through;
   return left && thickness_along(left->structure, planned.swept.point_R, planned.swept.direction_R,
@@ -70,7 +70,7 @@ bool is_blocked(const World& world, const PlannedBreak& planned) {
 
 }  // namespace
 
-std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Vec3& point_W,
+std::vector<Vec3> cross_section(const WorldState& world, const Actor& actor, const Vec3& point_W,
                                 const Vec3& direction_W, double reach_m) {
   const auto [u, v] = axes_across(direction_W);
   const Pose X_WB = world.physics->state(actor.body).X_WB;
@@ -137,7 +137,8 @@ double confinement(const Structure& structure, const std::vector<Vec3>& section_
          static_cast<double>(section_R.size());
 }
 
-void apply_plastic_collision(World& world, const PlannedBreak& planned, std::uint32_t first_key) {
+void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
+                             std::uint32_t first_key) {
   const Actor* striker = world.actors.find(planned.striker);
   if (planned.swept.section_R.empty() || !striker || is_blocked(world, planned)) return;
   const std::optional<Plug>& plug = planned.command.plug;

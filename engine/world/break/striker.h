@@ -13,7 +13,7 @@ namespace sunder {
 /// Returns the corners of the cross-section of an actor projected along `direction_W` (unit) onto
 /// the plane through `point_W`, counter-clockwise about the direction. An actor with a structure is
 /// represented by its convexes within `reach_m` of the point. Empty if the section has no area.
-std::vector<Vec3> cross_section(const World& world, const Actor& actor, const Vec3& point_W,
+std::vector<Vec3> cross_section(const WorldState& world, const Actor& actor, const Vec3& point_W,
                                 const Vec3& direction_W, double reach_m);
 
 /// Returns the thickness of a structure behind a section: the median over the rays, from `point_R`
@@ -31,6 +31,7 @@ double confinement(const Structure& structure, const std::vector<Vec3>& section_
 /// Gives a fast striker and the pieces that it has broken out of its path one common speed: a
 /// plastic collision, which conserves momentum (Recht and Ipson 1963). Debris takes its share of
 /// the momentum. Pieces are the actors with keys from `first_key` on.
-void apply_plastic_collision(World& world, const PlannedBreak& planned, std::uint32_t first_key);
+void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
+                             std::uint32_t first_key);
 
 }  // namespace sunder

@@ -23,18 +23,18 @@ constexpr ConvexSlot kPastLastSlot;           // none(), greater than any slot
 
 bool is_large(const Actor& actor) { return actor.structure.size() >= kLargeConvexes; }
 
-double weight_N(const World& world, double mass_kg) {
+double weight_N(const WorldState& world, double mass_kg) {
   return mass_kg * world.scene.gravity_W.norm();
 }
 
-/// Force on a convex of the actor at an index in World::actors.
+/// Force on a convex of the actor at an index in WorldState::actors.
 struct ActorForce {
   std::size_t place = 0;
   AppliedForce force;
 };
 
 /// Returns the mean forces on an actor after one more step with the forces `now`.
-std::vector<AppliedForce> averaged(const World& world, const Actor& actor,
+std::vector<AppliedForce> averaged(const WorldState& world, const Actor& actor,
                                    std::span<const ActorForce> now) {
   if (now.empty() && actor.stress.mean_forces.empty()) return {};
   const double dt = world.clock.dt_s, share = dt / (kForceAveragingTime_s + dt);
@@ -64,7 +64,7 @@ std::vector<AppliedForce> averaged(const World& world, const Actor& actor,
 }
 
 /// Returns true if the mean forces differ from those of the last stress solve.
-bool load_changed(const World& world, const Actor& actor) {
+bool load_changed(const WorldState& world, const Actor& actor) {
   const double negligible = kNegligibleLoad * weight_N(world, actor.weight.mass_kg);
   const std::vector<AppliedForce>&x = actor.stress.evaluated_forces, &y = actor.stress.mean_forces;
   for (std::size_t i = 0, j = 0; i < x.size() || j < y.size();) {
@@ -103,7 +103,7 @@ bool spin_changed(const StressState& stress) {
 
 /// Returns the forces of contacts and joints on actors in this step, in the order of actors, then
 /// convexes; forces are in the rest frame, torques about the convex's centroid.
-std::vector<ActorForce> find_forces(const World& world) {
+std::vector<ActorForce> find_forces(const WorldState& world) {
   std::vector<ActorForce> all;
   const BodyStates states = world.physics->states();
   const double dt = world.clock.dt_s;
@@ -142,7 +142,7 @@ std::vector<ActorForce> find_forces(const World& world) {
 
 /// Updates the mean forces of all actors; returns the keys of those to be solved, the longest
 /// deferred first.
-std::vector<std::uint32_t> update_loads(World& world) {
+std::vector<std::uint32_t> update_loads(WorldState& world) {
   const std::vector<ActorForce> now = find_forces(world);
   const BodyStates states = world.physics->states();
   using Due = std::pair<std::uint64_t, std::uint32_t>;
@@ -174,14 +174,14 @@ std::vector<std::uint32_t> update_loads(World& world) {
   return keys;
 }
 
-std::vector<std::uint32_t> find_due(World& world) {
+std::vector<std::uint32_t> find_due(WorldState& world) {
   WorkSpan span(world.log.work_counts, Stage::kLoad, "solids due");
   std::vector<std::uint32_t> keys = update_loads(world);
   span.count(keys.size());
   return keys;
 }
 
-StressResult find_stress(const World& world, const Breaker& breaker, const Actor& actor,
+StressResult find_stress(const WorldState& world, const Breaker& breaker, const Actor& actor,
                          const Quat& rotation_WB, std::uint64_t most_work) {
   std::vector<AppliedForce> loads;
   LoadCase load = make_load_case(world, actor, rotation_WB, loads);
@@ -197,7 +197,8 @@ struct StressTask {
 };
 
 /// Solves the stress of all actors of a batch, each within its reserved work.
-void find_stresses(const World& world, const Breaker& breaker, std::vector<StressTask>& batch) {
+void find_stresses(const WorldState& world, const Breaker& breaker,
+                   std::vector<StressTask>& batch) {
   const BodyStates states = world.physics->states();
   const auto one = [&](StressTask& task) {
     const Stopwatch watch;
@@ -216,7 +217,7 @@ void find_stresses(const World& world, const Breaker& breaker, std::vector<Stres
 }
 
 /// Applies the result of a stress solve to its actor.
-void apply(World& world, StressTask& task) {
+void apply(WorldState& world, StressTask& task) {
   Actor& actor = *world.actors.find(task.key);
   StressResult& answer = task.answer;
   actor.stress.evaluated_forces = actor.stress.mean_forces;
@@ -256,7 +257,7 @@ void apply(World& world, StressTask& task) {
 
 }  // namespace
 
-void LoadStage::prepare(World& world, const Breaker& breaker) const {
+void LoadStage::prepare(WorldState& world, const Breaker& breaker) const {
   std::vector<StressTask> batch;
   for (const Actor& actor : world.actors) {
     if (actor.stress.breakable && is_large(actor)) batch.push_back({actor.key, 0, {}, 0});
@@ -267,11 +268,12 @@ void LoadStage::prepare(World& world, const Breaker& breaker) const {
   }
 }
 
-void LoadStage::begin_frame() {
-  work_left_ = std::min(kMaxSavedFrames * work_a_frame_, work_left_ + work_a_frame_);
+void LoadStage::begin_frame(double share) {
+  const std::int64_t work = std::llround(share * static_cast<double>(work_a_frame_));
+  work_left_ = std::min(kMaxSavedFrames * work_a_frame_, work_left_ + work);
 }
 
-void LoadStage::run(World& world, const Breaker& breaker) {
+void LoadStage::run(WorldState& world, const Breaker& breaker) {
   const bool any = std::any_of(world.actors.begin(), world.actors.end(),
                                [](const Actor& actor) { return actor.stress.breakable; });
   deferred_ = 0;

@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "engine/model/breaker.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -20,10 +20,11 @@ class LoadStage {
 
   /// Makes the stress systems of large solids before the first frame, as that takes longer than a
   /// frame has.
-  void prepare(World& world, const Breaker& breaker) const;
-  void begin_frame();
+  void prepare(WorldState& world, const Breaker& breaker) const;
+  /// `share` is the length of the frame, in sixtieths of a second.
+  void begin_frame(double share);
   /// Runs the stage after the solve.
-  void run(World& world, const Breaker& breaker);
+  void run(WorldState& world, const Breaker& breaker);
   /// Number of actors whose load is not evaluated yet.
   std::uint32_t deferred() const { return deferred_; }
 

@@ -16,7 +16,7 @@ namespace {
 using Live = Joints::Live;
 
 /// Returns the step from which on a hinge may be removed; none if that is later than now.
-std::optional<std::uint64_t> rejoin_step(const World& world, const Live& joint) {
+std::optional<std::uint64_t> rejoin_step(const WorldState& world, const Live& joint) {
   const Actor &a = *world.actors.find(joint.a.key), &b = *world.actors.find(joint.b.key);
   const std::uint32_t times = std::min(kMaxRejoinDoublings, std::max(a.rejoined, b.rejoined));
   const auto wait = static_cast<std::uint64_t>(std::ceil(kRejoinDelay_s / world.clock.dt_s) *
@@ -67,7 +67,7 @@ bool keeps_sides(const Live& joint, std::uint32_t key_a, std::uint32_t key_b,
 /// hinges between the two, which become internal.
 class MergedLoadCase {
  public:
-  MergedLoadCase(const World& world, const Actor& a, const Actor& b, const Rejoined& rejoined,
+  MergedLoadCase(const WorldState& world, const Actor& a, const Actor& b, const Rejoined& rejoined,
                  const Pose& X_AB)
       : rejoined_(rejoined), a_(a), b_(b), structure_(a.structure) {
     structure_.apply(rejoined.edit);
@@ -96,7 +96,7 @@ class MergedLoadCase {
     return structure_.has(slot) ? slot : ConvexSlot();
   }
 
-  void add(const World& world, const Actor& actor, const Pose& X_AR) {
+  void add(const WorldState& world, const Actor& actor, const Pose& X_AR) {
     std::vector<ConvexSlot> between;
     for (const Live& joint : world.joints.live()) {
       if (!joint.hinge) continue;
@@ -127,7 +127,7 @@ class MergedLoadCase {
   LoadCase load_;
 };
 
-bool rejoin(World& world, const Breaker& breaker, const Actor& a, const Actor& b,
+bool rejoin(WorldState& world, const Breaker& breaker, const Actor& a, const Actor& b,
             std::uint64_t& work) {
   BentPair bent{
       a.structure, b.structure, relative_rest(*world.physics, a, b), {}, world.next_event++};
@@ -151,7 +151,7 @@ bool rejoin(World& world, const Breaker& breaker, const Actor& a, const Actor& b
 
 }  // namespace
 
-std::uint64_t rejoin(World& world, const Breaker& breaker) {
+std::uint64_t rejoin(WorldState& world, const Breaker& breaker) {
   const Live* oldest = nullptr;
   std::uint64_t since = 0;
   for (const Live& joint : world.joints.live()) {

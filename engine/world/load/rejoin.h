@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "engine/model/breaker.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -13,6 +13,6 @@ namespace sunder {
 /// section may bear more as a joint, and then stays one. Returns the work in bond evaluations, as
 /// StressResult does. A merged body under changing loads may part again at once at the same place:
 /// each time the delay doubles.
-std::uint64_t rejoin(World& world, const Breaker& breaker);
+std::uint64_t rejoin(WorldState& world, const Breaker& breaker);
 
 }  // namespace sunder

@@ -13,7 +13,7 @@ constexpr std::size_t kBodiesInChunk = 64, kDebrisInChunk = 4096;
 
 /// Returns the emission of a face at its position at the start of the frame, with its current
 /// motion. If the actor with the face is gone, the face moves as the broken solid did.
-ExposedPolygon emission_of(const World& world, const BodyStates& states,
+ExposedPolygon emission_of(const WorldState& world, const BodyStates& states,
                            const Exposed::Parent& parent, const Exposed::Face& face,
                            std::span<const Vec3> corners_R, std::vector<Vec3>& corners_W) {
   Pose X_WR = parent.motion.X_WR;
@@ -43,7 +43,7 @@ ExposedPolygon emission_of(const World& world, const BodyStates& states,
   return emission;
 }
 
-void emit(const World& world, const Exposed& exposed, Particles& particles) {
+void emit(const WorldState& world, const Exposed& exposed, Particles& particles) {
   const BodyStates states = world.physics->states();
   std::vector<ExposedPolygon> emissions;
   std::vector<Vec3> corners_W;
@@ -68,7 +68,7 @@ struct Surroundings {
 };
 
 /// Adds the ground's meshes as the last body.
-void add_landscape(const World& world, Surroundings& all) {
+void add_landscape(const WorldState& world, Surroundings& all) {
   const std::vector<ObstacleShape>& obstacles = world.landscape.obstacles;
   if (obstacles.empty()) return;
   const std::size_t first = all.shapes.size() - obstacles.size();
@@ -81,7 +81,7 @@ void add_landscape(const World& world, Surroundings& all) {
 }
 
 /// Returns all bodies; made in parallel, as the work is bound by memory.
-Surroundings surroundings(const World& world) {
+Surroundings surroundings(const WorldState& world) {
   const BodyStates states = world.physics->states();
   const std::size_t count = world.actors.size();
   std::vector<std::size_t> first(count + 1);
@@ -117,7 +117,7 @@ Surroundings surroundings(const World& world) {
 
 }  // namespace
 
-void ParticleStage::run(const World& world, const Exposed& exposed) {
+void ParticleStage::run(const WorldState& world, const Exposed& exposed) {
   emit(world, exposed, *particles_);
   const ParticleReport report = particles_->report();
   if (report.debris.alive == 0 && report.dust.alive == 0) return;

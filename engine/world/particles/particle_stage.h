@@ -11,7 +11,7 @@
 
 #include "engine/model/frame.h"
 #include "engine/model/particles.h"
-#include "engine/world/actors/world.h"
+#include "engine/world/actors/world_state.h"
 
 namespace sunder {
 
@@ -27,7 +27,7 @@ class ParticleStage {
     return std::uint64_t{report.debris.alive} + report.dust.alive;
   }
   /// Emits the particles of the frame's breaks and advances all, at the end of a frame's last step.
-  void run(const World& world, const Exposed& exposed);
+  void run(const WorldState& world, const Exposed& exposed);
   /// Adds debris and dust to a frame, and counts a limit reached since the last frame.
   void show(Frame& frame);
 

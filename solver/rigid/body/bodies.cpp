@@ -82,6 +82,7 @@ void Bodies::resize(std::uint32_t count) {
   changed.resize(count);
   displaced.resize(count);
   reports_load.resize(count);
+  filter.resize(count);
   tag.resize(count);
   first_shape.resize(count);
 }
@@ -122,6 +123,7 @@ BodySlot Bodies::add(const BodyDesc& desc) {
   changed[body] = 1;
   displaced[body] = 0;
   reports_load[body] = desc.reports_load;
+  filter[body] = desc.filter;
   tag[body] = desc.tag;
   first_shape[body] = {};
   return body;

@@ -56,6 +56,7 @@ struct Bodies {
   ByBody<std::uint8_t> displaced;     ///< 1: kinematic, and its pose was set since the last step.
   ByBody<std::uint8_t> reports_load;  ///< 1: in contact_impulses() and joint_impulses().
   ByBody<std::uint32_t> tag;          ///< Given by the caller; not read by the solver.
+  ByBody<CollisionFilter> filter;
   ByBody<ShapeSlot> first_shape;
   std::vector<BodySlot> free_slots;
 

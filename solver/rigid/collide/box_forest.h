@@ -23,6 +23,11 @@ class BoxForest {
   void overlaps(const FloatBox& query, const Hit& hit) const {
     for (const BoxTree& tree : trees_) tree.overlaps(query, hit);
   }
+  /// As BoxTree::on_ray().
+  template <class Hit>
+  void on_ray(const Ray& ray, const Hit& hit) const {
+    for (const BoxTree& tree : trees_) tree.on_ray(ray, hit);
+  }
 
  private:
   struct Place {

@@ -2,6 +2,8 @@
 // union of eight nodes below it. Queries test eight boxes at a time.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +29,32 @@ struct FloatBox {
   }
 };
 
+/// A ray, or the path of a ball, in floats with room for their rounding.
+struct Ray {
+  /// `direction` has unit length.
+  Ray(const Vec3& from_W, const Vec3& direction_W, double reach, double radius)
+      : from(from_W.cast<float>()),
+        radius_m(static_cast<float>(radius) + 4e-7f * from.cwiseAbs().maxCoeff()),
+        reach_m(reach) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double along = direction_W[axis];
+      const double steep = std::max(std::abs(along), 1e-20);  // no division by zero
+      inverse[axis] = static_cast<float>(std::copysign(1 / steep, along));
+    }
+    shorten(reach);
+  }
+  void shorten(double reach) {
+    reach_m = std::min(reach_m, reach);
+    most = static_cast<float>(reach_m) * kRoundUp;
+  }
+
+  static constexpr float kRoundUp = 1 + 1e-6f;
+  Vec3f from, inverse;
+  float radius_m;
+  double reach_m;
+  float most = 0;  ///< reach_m, rounded up.
+};
+
 class BoxTree {
  public:
   /// Sorts `items` and builds all levels.
@@ -36,6 +64,10 @@ class BoxTree {
   /// Calls hit(item) for each item whose box overlaps `query`.
   template <class Hit>
   void overlaps(const FloatBox& query, const Hit& hit) const;
+  /// Calls hit(item) for each item whose box `ray` meets, near ones first by and large; hit() may
+  /// shorten the ray.
+  template <class Hit>
+  void on_ray(const Ray& ray, const Hit& hit) const;
   std::size_t size() const { return items_.size(); }
   /// Items in leaf order; none where one was removed.
   std::span<const ShapeSlot> leaves() const { return items_; }
@@ -78,6 +110,47 @@ void BoxTree::overlaps(const FloatBox& query, const Hit& hit) const {
         hit(items_[child]);
       else
         stack[depth++] = {visit.level - 1, child};
+    }
+  }
+}
+
+template <class Hit>
+void BoxTree::on_ray(const Ray& ray, const Hit& hit) const {
+  if (items_.empty()) return;
+  struct Visit {
+    std::uint32_t level, chunk;
+    float from;  ///< Distance at which the ray enters the box.
+  };
+  Visit stack[128];
+  std::uint32_t depth = 0;
+  stack[depth++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
+  while (depth > 0) {
+    const Visit visit = stack[--depth];
+    if (visit.from > ray.most) continue;
+    if (visit.level == 0) {
+      hit(items_[visit.chunk]);
+      continue;
+    }
+    const std::uint32_t level = visit.level - 1;
+    const Chunk& c = levels_[level][visit.chunk];
+    Wide enter = splat(0.f), leave = splat(ray.most);
+    const auto cut = [&](const Wide& min_m, const Wide& max_m, int axis) {
+      const Wide first = (min_m - ray.radius_m - ray.from[axis]) * ray.inverse[axis];
+      const Wide second = (max_m + ray.radius_m - ray.from[axis]) * ray.inverse[axis];
+      enter = max(enter, min(first, second));
+      leave = min(leave, max(first, second) * Ray::kRoundUp);
+    };
+    cut(c.min.x, c.max.x, 0);
+    cut(c.min.y, c.max.y, 1);
+    cut(c.min.z, c.max.z, 2);
+    const std::uint32_t first = depth;
+    for (std::uint32_t met = bits(enter <= leave); met != 0; met &= met - 1) {
+      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(met));
+      const Visit next{level, visit.chunk * kLanes + lane, enter[lane]};
+      std::uint32_t place = depth++;  // the nearest last
+      for (; place > first && stack[place - 1].from < next.from; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = next;
     }
   }
 }

@@ -31,15 +31,17 @@ FloatBox turned_bounds(const Hull& hull, const Mat3f& R) {
   return {low, high};
 }
 
+/// Returns the bounds of a hull or sphere as its body is turned, about the body's centre.
+FloatBox turned_bounds(const Shape& shape, const Bodies& bodies) {
+  const Mat3f& R = bodies.rotation_f[shape.body];
+  if (shape.kind == ShapeDesc::Kind::kHull) return turned_bounds(shape.hull, R);
+  const Vec3f center = R * shape.center;
+  return {center.array() - shape.radius_m, center.array() + shape.radius_m};
+}
+
 FloatBox swept_box(const StepContext& step, const Shape& shape, const Bodies& bodies) {
   const BodySlot body = shape.body;
-  FloatBox box;
-  if (shape.kind == ShapeDesc::Kind::kHull) {
-    box = turned_bounds(shape.hull, bodies.rotation_f[body]);
-  } else {
-    const Vec3f center = bodies.rotation_f[body] * shape.center;
-    box = {center.array() - shape.radius_m, center.array() + shape.radius_m};
-  }
+  FloatBox box = turned_bounds(shape, bodies);
   float grow = kBoxMargin * shape.inner_radius_m;
   if (bodies.awake(body) || bodies.is_moving_kinematic(body)) {
     const double dt_s = step.dt_s;
@@ -140,6 +142,21 @@ std::vector<ShapeBox> BroadPhase::boxes(const Shapes& shapes, const Bodies& bodi
         {bodies.tag[shapes[s].body], {fat_[s].min.cast<double>(), fat_[s].max.cast<double>()}});
   }
   return all;
+}
+
+std::vector<ShapeSlot> BroadPhase::strays(const Shapes& shapes, const Bodies& bodies) const {
+  return collect_chunks<ShapeSlot>(
+      role_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::vector<ShapeSlot>& found) {
+        for (ShapeSlot s(begin); s.value < end; ++s.value) {
+          if (role_[s] != Role::kMover && role_[s] != Role::kStatic) continue;
+          const Shape& shape = shapes[s];
+          const bool is_new = fat_[s].min.x() > fat_[s].max.x();
+          if (!is_new && (role_[s] == Role::kStatic || !bodies.changed[shape.body])) continue;
+          const Vec3f at = bodies.position[shape.body].cast<float>();
+          const FloatBox box = turned_bounds(shape, bodies);
+          if (is_new || !fat_[s].contains({at + box.min, at + box.max})) found.push_back(s);
+        }
+      });
 }
 
 void BroadPhase::update_boxes(const StepContext& step, const Shapes& shapes, const Bodies& bodies) {
@@ -245,6 +262,7 @@ void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies&
     const Shape& neighbour = shapes[other];
     ++neighbours;
     if (neighbour.body == own.body || (moved_[other] && other < shape)) return;
+    if (!bodies.filter[own.body].collides_with(bodies.filter[neighbour.body])) return;
     if (!mover && !bodies.dynamic(neighbour.body)) return;
     const FoundPair pair = pair_of(shape, other, shapes);
     if (contacts.slot(pair.key()).none()) found.push_back(pair);

@@ -52,6 +52,32 @@ class BroadPhase {
   bool left_fat_box(const Pair& pair) const {
     return (moved_[pair.shape_a] || moved_[pair.shape_b]) && !is_near(pair);
   }
+  /// Returns the shapes that queries cannot find by the trees: those that have left their fat box,
+  /// and those added since the last update; ascending.
+  std::vector<ShapeSlot> strays(const Shapes& shapes, const Bodies& bodies) const;
+  /// Calls hit(shape) for each shape that `ray` may meet, strays and half-spaces always; for some
+  /// more than once. hit() may shorten the ray.
+  template <class Hit>
+  void on_ray(const Ray& ray, std::span<const ShapeSlot> strays, const Hit& hit) const {
+    const auto present = [&](ShapeSlot s) {
+      if (!s.none() && role_[s] != Role::kAbsent) hit(s);
+    };
+    for (const HalfSpace& plane : half_spaces_) hit(plane.shape);
+    for (const ShapeSlot s : strays) hit(s);
+    mover_tree_.on_ray(ray, present);
+    static_forest_.on_ray(ray, present);
+  }
+  /// Likewise for each shape whose box may overlap `box`.
+  template <class Hit>
+  void in_box(const FloatBox& box, std::span<const ShapeSlot> strays, const Hit& hit) const {
+    const auto present = [&](ShapeSlot s) {
+      if (!s.none() && role_[s] != Role::kAbsent) hit(s);
+    };
+    for (const HalfSpace& plane : half_spaces_) hit(plane.shape);
+    for (const ShapeSlot s : strays) hit(s);
+    mover_tree_.overlaps(box, present);
+    static_forest_.overlaps(box, present);
+  }
   /// Returns the fat boxes of all shapes that have one, in order of slots.
   std::vector<ShapeBox> boxes(const Shapes& shapes, const Bodies& bodies) const;
 

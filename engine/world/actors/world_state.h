@@ -1,8 +1,11 @@
-// State of the running world: read World. Internal to engine/world; users see Simulation and Frame.
+// State of the running world: read WorldState. Internal to engine/world; users see Simulation and
+// Frame.
 //
 // Each part keeps its own invariants; state of a single stage is in that stage.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,11 +25,12 @@
 
 namespace sunder {
 
-struct World {
+struct WorldState {
   const Scene scene;  ///< As given.
-  const std::shared_ptr<const std::vector<Material>> materials;
-  /// Names of solids, balls, then shots.
-  const std::shared_ptr<const std::vector<std::string>> names;
+  std::shared_ptr<const std::vector<Material>> materials;
+  /// Names of the scene's solids, balls and shots, then others. Copied before it changes, as
+  /// frames share it.
+  std::shared_ptr<const std::vector<std::string>> names;
   const std::shared_ptr<const std::vector<Appearance>> appearances;  ///< Null if there are none.
   const std::unique_ptr<Physics> physics;
   Clock clock;
@@ -41,7 +45,7 @@ struct World {
   double smallest_piece_factor = 1;
   std::optional<Exposed> exposed;  ///< None in a run without particles.
 
-  World(Scene given, std::unique_ptr<Physics> moves)
+  WorldState(Scene given, std::unique_ptr<Physics> moves)
       : scene(std::move(given)),
         materials(std::make_shared<const std::vector<Material>>(scene.materials)),
         names(std::make_shared<const std::vector<std::string>>(object_names(scene))),
@@ -52,6 +56,23 @@ struct World {
         clock(scene.accuracy) {}
 
   const Material& material(MaterialIndex index) const { return (*materials)[index.value]; }
+  MaterialIndex add_material(const Material& material) {
+    auto more = std::make_shared<std::vector<Material>>(*materials);
+    more->push_back(material);
+    materials = std::move(more);
+    return MaterialIndex(materials->size() - 1);
+  }
+  /// Returns the index of a name, which is added if it is new; kNoName for an empty one.
+  std::uint32_t add_name(const std::string& name) {
+    if (name.empty()) return kNoName;
+    const auto known = std::ranges::find(*names, name);
+    const auto index = static_cast<std::uint32_t>(known - names->begin());
+    if (known != names->end()) return index;
+    auto more = std::make_shared<std::vector<std::string>>(*names);
+    more->push_back(name);
+    names = std::move(more);
+    return index;
+  }
 };
 
 }  // namespace sunder
