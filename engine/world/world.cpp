@@ -148,7 +148,7 @@ void World::Parts::note_hits() {
   if (!(least_hit_m_s < std::numeric_limits<double>::infinity())) return;
   for (const SpeculativeContact& contact : world.physics->speculative_contacts()) {
     if (contact.speed_m_s < least_hit_m_s) continue;
-    if (contact.separation_m > contact.speed_m_s * world.clock.dt_s) continue;
+    if (contact.separation_m > contact.speed_m_s * world.clock.horizon_s()) continue;
     Hit hit{key_of_tag(contact.body_tag_a),
             key_of_tag(contact.body_tag_b),
             contact.point_W,

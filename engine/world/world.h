@@ -97,11 +97,11 @@ struct QueryFilter {
 
 /// A point that a ray or a moving ball meets first on a body.
 struct CastHit {
-  BodyKey body;            ///< none(): the ground.
-  std::uint32_t slot = 0;  ///< Slot of the convex; 0 for a ball.
-  MaterialIndex material;  ///< none() for the plane of the ground.
-  double distance_m = 0;   ///< Along the ray, from its start; 0 if it starts inside.
-  Vec3 point_W = Vec3::Zero();
+  BodyKey body;                   ///< none(): the ground.
+  std::uint32_t slot = 0;         ///< Slot of the convex; 0 for a ball.
+  MaterialIndex material;         ///< none() for the plane of the ground.
+  double distance_m = 0;          ///< Along the ray, from its start; 0 if it starts inside.
+  Vec3 point_W = Vec3::Zero();    ///< On the surface; the start of the ray if it starts inside.
   Vec3 normal_W = Vec3::UnitY();  ///< Unit, out of the body; against the ray if it starts inside.
 };
 

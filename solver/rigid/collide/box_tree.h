@@ -144,7 +144,9 @@ void BoxTree::on_ray(const Ray& ray, const Hit& hit) const {
     cut(c.min.y, c.max.y, 1);
     cut(c.min.z, c.max.z, 2);
     const std::uint32_t first = depth;
-    for (std::uint32_t met = bits(enter <= leave); met != 0; met &= met - 1) {
+    // Empty boxes, whose min is above their max, would be met everywhere.
+    for (std::uint32_t met = bits((enter <= leave) & (c.min.x <= c.max.x)); met != 0;
+         met &= met - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(met));
       const Visit next{level, visit.chunk * kLanes + lane, enter[lane]};
       std::uint32_t place = depth++;  // the nearest last
