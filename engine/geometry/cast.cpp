@@ -161,7 +161,7 @@ std::optional<SurfaceHit> cast_at_front(const MovingBall& ball,
 
 std::optional<SurfaceHit> cast(const MovingBall& ball, const ConvexPolyhedron& convex) {
   if (ball.radius_m == 0) return cast_ray(ball, convex);
-  if (distance(convex, ball.from) <= ball.radius_m) return hit_at_start(ball);
+  if (is_within(convex, ball.from, ball.radius_m)) return hit_at_start(ball);
   std::optional<SurfaceHit> best;
   for (std::size_t f = 0; f < convex.faces.size(); ++f)
     keep_nearer(best, cast_at_polygon(ball, face_of(convex, f)));
@@ -177,6 +177,17 @@ double distance(const ConvexPolyhedron& convex, const Vec3& point) {
     least_m = std::min(least_m, distance(face_of(convex, f), point));
   }
   return inside ? 0 : least_m;
+}
+
+bool is_within(const ConvexPolyhedron& convex, const Vec3& point, double radius_m) {
+  double height_m = 0;
+  for (const ConvexPolyhedron::Face& face : convex.faces)
+    height_m = std::max(height_m, face.plane.distance(point));
+  if (height_m == 0 || height_m > radius_m) return height_m == 0;
+  const auto near = [&](const Vec3& vertex) {
+    return (vertex - point).squaredNorm() <= radius_m * radius_m;
+  };
+  return std::ranges::any_of(convex.vertices, near) || distance(convex, point) <= radius_m;
 }
 
 bool overlaps(const ConvexPolyhedron& convex, const Pose& X_QC, const Box& box_Q) {

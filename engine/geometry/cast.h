@@ -33,6 +33,8 @@ std::optional<SurfaceHit> cast_at_front(const MovingBall& ball, const std::array
 
 /// Returns the distance from a point to a convex; 0 inside.
 double distance(const ConvexPolyhedron& convex, const Vec3& point);
+/// Returns true if the distance from a point to a convex is at most `radius_m`.
+bool is_within(const ConvexPolyhedron& convex, const Vec3& point, double radius_m);
 /// Returns the distance from a point to a box; 0 inside.
 inline double distance(const Box& box, const Vec3& point) {
   return (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();

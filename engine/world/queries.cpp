@@ -197,11 +197,11 @@ std::vector<Overlap> find_overlaps(const WorldState& world, const QueryFilter& f
                                    const Vec3& center_W, double radius_m) {
   const auto overlaps = [&](const Candidate& one, const Candidates& all) {
     if (!one.actor && !one.facet) return center_W.y() - radius_m <= world.scene.ground.height_m;
-    if (one.facet) return distance(one.facet->prism, center_W) <= radius_m;
+    if (one.facet) return is_within(one.facet->prism, center_W, radius_m);
     const Pose X_WR = all.X_WR(*one.actor);
     if (one.actor->structure.empty())
       return (center_W - X_WR.position).norm() <= radius_m + ball_radius_m(one.actor->volume_m3);
-    return distance(polyhedron_of(one), X_WR.inverse() * center_W) <= radius_m;
+    return is_within(polyhedron_of(one), X_WR.inverse() * center_W, radius_m);
   };
   OverlapVisitor visitor(world, filter, overlaps);
   const Vec3 half = Vec3::Constant(radius_m);

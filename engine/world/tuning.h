@@ -9,6 +9,11 @@
 
 namespace sunder {
 
+// What a program may ask for.
+
+/// Bounds of the time of World::step(): gravity moves a body by 5 cm in the longest.
+inline constexpr double kShortestStep_s = 1e-6, kLongestStep_s = 0.1;
+
 // Impacts that may break a solid (decisions 017, 049).
 
 /// Minimum area of a crack through a solid, as a fraction of V^(2/3) of the volume V in reach.

@@ -26,11 +26,10 @@
 #include "engine/world/particles/particle_stage.h"
 #include "engine/world/queries.h"
 #include "engine/world/snapshot.h"
+#include "engine/world/tuning.h"
 
 namespace sunder {
 namespace {
-
-constexpr double kShortestStep_s = 1e-6, kLongestStep_s = 0.1;
 
 /// Measures the time of each stage of a frame, from the end of the last one.
 class StageClock {

@@ -6,6 +6,9 @@
 
 namespace sunder::solver {
 
+/// Returns a vector with the same value in all lanes.
+SUNDER_INLINE Wide3 splat3(const Vec3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
+
 template <class V>
 void set_lane(Triple<V>& wide, std::uint32_t lane, const Vec3f& v) {
   wide.x[lane] = v.x();

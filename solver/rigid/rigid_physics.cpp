@@ -18,6 +18,7 @@
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/collide/dense_clusters.h"
 #include "solver/rigid/collide/narrow_phase.h"
+#include "solver/rigid/collide/query_tests.h"
 #include "solver/rigid/collide/speculative_contacts.h"
 #include "solver/rigid/contact/contact_reports.h"
 #include "solver/rigid/contact/contact_solver.h"
@@ -359,6 +360,7 @@ void RigidPhysics::visit_on_ray(const Vec3& from_W, const Vec3& direction_W, dou
                                 double radius_m, ShapeVisitor& visitor) {
   Ray ray(from_W, direction_W, reach_m, radius_m);
   broad_phase_.on_ray(ray, strays(), [&](ShapeSlot shape) {
+    if (!may_meet(ray, shapes_[shape], bodies_)) return;
     const ShapeId id{bodies_.tag[shapes_[shape].body], shapes_[shape].tag};
     ray.shorten(visitor.visit(id, ray.reach_m));
   });
@@ -370,7 +372,8 @@ void RigidPhysics::visit_in_box(const Box& box_W, ShapeVisitor& visitor) {
   const FloatBox box{box_W.min.cast<float>() - Vec3f::Constant(pad),
                      box_W.max.cast<float>() + Vec3f::Constant(pad)};
   broad_phase_.in_box(box, strays(), [&](ShapeSlot shape) {
-    visitor.visit({bodies_.tag[shapes_[shape].body], shapes_[shape].tag}, 0);
+    if (may_overlap(box, shapes_[shape], bodies_))
+      visitor.visit({bodies_.tag[shapes_[shape].body], shapes_[shape].tag}, 0);
   });
 }
 

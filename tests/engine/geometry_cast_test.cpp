@@ -44,7 +44,10 @@ RC_GTEST_PROP(Cast, DistanceIsThatOfTheProjection, (std::uint64_t seed)) {
   Random random(seed, 0);
   const ConvexPolyhedron convex = random_hull(random);
   const Vec3 point = point_in(random, 3);
-  RC_ASSERT(std::abs(distance(convex, point) - distance_by_projections(convex, point)) < 1e-3);
+  const double distance_m = distance(convex, point);
+  RC_ASSERT(std::abs(distance_m - distance_by_projections(convex, point)) < 1e-3);
+  for (const double radius_m : {0.0, 0.5 * distance_m, 1.001 * distance_m, 9.0})
+    RC_ASSERT(is_within(convex, point, radius_m) == (distance_m <= radius_m));
 }
 
 /// Checks a hit, or a miss, against the distance of the ball's centre along its way.

@@ -32,12 +32,14 @@ struct FloatBox {
 /// A ray, or the path of a ball, in floats with room for their rounding.
 struct Ray {
   /// `direction` has unit length.
-  Ray(const Vec3& from_W, const Vec3& direction_W, double reach, double radius)
-      : from(from_W.cast<float>()),
-        radius_m(static_cast<float>(radius) + 4e-7f * from.cwiseAbs().maxCoeff()),
+  Ray(const Vec3& from, const Vec3& direction, double reach, double radius)
+      : from_W(from),
+        direction_W(direction),
+        start(from.cast<float>()),
+        radius_m(static_cast<float>(radius) + 4e-7f * start.cwiseAbs().maxCoeff()),
         reach_m(reach) {
     for (int axis = 0; axis < 3; ++axis) {
-      const double along = direction_W[axis];
+      const double along = direction[axis];
       const double steep = std::max(std::abs(along), 1e-20);  // no division by zero
       inverse[axis] = static_cast<float>(std::copysign(1 / steep, along));
     }
@@ -49,7 +51,8 @@ struct Ray {
   }
 
   static constexpr float kRoundUp = 1 + 1e-6f;
-  Vec3f from, inverse;
+  Vec3 from_W, direction_W;
+  Vec3f start, inverse;
   float radius_m;
   double reach_m;
   float most = 0;  ///< reach_m, rounded up.
@@ -135,8 +138,8 @@ void BoxTree::on_ray(const Ray& ray, const Hit& hit) const {
     const Chunk& c = levels_[level][visit.chunk];
     Wide enter = splat(0.f), leave = splat(ray.most);
     const auto cut = [&](const Wide& min_m, const Wide& max_m, int axis) {
-      const Wide first = (min_m - ray.radius_m - ray.from[axis]) * ray.inverse[axis];
-      const Wide second = (max_m + ray.radius_m - ray.from[axis]) * ray.inverse[axis];
+      const Wide first = (min_m - ray.radius_m - ray.start[axis]) * ray.inverse[axis];
+      const Wide second = (max_m + ray.radius_m - ray.start[axis]) * ray.inverse[axis];
       enter = max(enter, min(first, second));
       leave = min(leave, max(first, second) * Ray::kRoundUp);
     };

@@ -11,8 +11,6 @@ namespace {
 
 constexpr float kTried = -2e30f;  // less than any separation: the face is tried
 
-Wide3 splat3(const Vec3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
-
 Wide3 turned(const Mat3f& R, const Wide3& v) {
   return {v.x * R(0, 0) + v.y * R(0, 1) + v.z * R(0, 2),
           v.x * R(1, 0) + v.y * R(1, 1) + v.z * R(1, 2),
