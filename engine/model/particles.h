@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "engine/base/types.h"
@@ -121,6 +122,8 @@ struct ParticleReport {
 class Particles {
  public:
   virtual ~Particles() = default;
+
+  virtual std::unique_ptr<Particles> copy() const = 0;
 
   /// Emits debris and dust, distributed uniformly on each face.
   virtual void emit(std::span<const ExposedPolygon> faces) = 0;

@@ -230,6 +230,10 @@ class Physics {
  public:
   virtual ~Physics() = default;
 
+  /// Returns a copy, which later calls change as they would change this; ids stay valid in it.
+  virtual std::unique_ptr<Physics> copy() const {
+    throw InputError("the state of this solver cannot be copied");
+  }
   /// Removes bodies, then adds bodies; returns the new ids in the order of `add`. Neighbours of
   /// removed bodies are woken.
   virtual std::vector<BodyId> replace(std::span<const BodyId> remove,

@@ -85,7 +85,7 @@ const Compound& Asset::compound() const { return data_->compound; }
 /// The state of the world, its stages, and what was found of it since the last step.
 struct World::Parts {
   WorldState world;
-  std::unique_ptr<Breaker> breaker;
+  std::shared_ptr<const Breaker> breaker;  ///< Shared with copies: it has no state of a run.
   ActStage act;
   BreakStage breaks;
   LoadStage loads;
@@ -243,6 +243,13 @@ World::World(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Brea
   parts_->loads.prepare(world, *parts_->breaker);
   parts_->end_step();
   parts_->events = {};
+}
+
+World::World(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+World World::copy() const {
+  parts_->world.meshes.publish();  // shared until either world changes it
+  return World(std::make_unique<Parts>(*parts_));
 }
 
 World::World(World&&) noexcept = default;

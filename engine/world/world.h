@@ -143,6 +143,10 @@ class World {
   /// there are neither debris nor dust. scenes/make_simulation.h supplies the arguments.
   World(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaker,
         std::unique_ptr<Particles> particles = nullptr);
+  /// Returns a world in the same state, which goes on with the same bits: to roll back, keep a copy
+  /// and assign it later. What does not change is shared: solids, meshes, frames. Throws InputError
+  /// for a planar scene.
+  World copy() const;
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
@@ -232,6 +236,8 @@ class World {
 
  private:
   struct Parts;
+  explicit World(std::unique_ptr<Parts> parts);
+
   std::unique_ptr<Parts> parts_;
 };
 

@@ -15,6 +15,9 @@ class DebrisAndDust final : public Particles {
         debris_(options.limits.debris, options.gravity_W),
         dust_(options.limits.dust, options.gravity_W, options.max_air_cells) {}
 
+  std::unique_ptr<Particles> copy() const override {
+    return std::make_unique<DebrisAndDust>(*this);
+  }
   void emit(std::span<const ExposedPolygon> faces) override {
     const CapacityShares shares = capacity_shares(faces, debris_, dust_);
     for (const ExposedPolygon& face : faces) {

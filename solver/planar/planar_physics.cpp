@@ -47,6 +47,9 @@ class PlanarPhysics final : public Physics {
   BodyStates states() const override { return table_.states(); }
   std::vector<ContactImpulse> contact_impulses() const override;
   std::vector<float> penetrations() const override { return find_penetrations(world_, plane_); }
+  std::unique_ptr<Physics> copy() const override {
+    throw InputError("a planar world cannot be copied, as Box2D has no copies of its worlds");
+  }
   PhysicsInspection inspect() const override { return inspect_planar(bodies_.items, plane_); }
   std::vector<ContactForce> contact_forces() const override {
     return find_contact_forces(world_, bodies_.items, plane_, last_h_s_);

@@ -42,6 +42,7 @@ class RigidPhysics final : public Physics {
     contacts_.colors = static_cast<std::uint8_t>(options.max_colors);
   }
 
+  std::unique_ptr<Physics> copy() const override { return std::make_unique<RigidPhysics>(*this); }
   std::vector<BodyId> replace(std::span<const BodyId> remove,
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;

@@ -16,6 +16,9 @@ using testing::ScriptedPhysics;
 /// Records the emissions and obstacles it gets; has one piece of debris after each advance.
 class RecordingParticles final : public Particles {
  public:
+  std::unique_ptr<Particles> copy() const override {
+    return std::make_unique<RecordingParticles>(*this);
+  }
   struct Face {
     std::vector<Vec3> corners_W;
     ExposedPolygon emission;

@@ -511,6 +511,50 @@ TEST(World, TwoWorldsInTwoThreadsGiveTheBitsOfEachAlone) {
   EXPECT_EQ(together[1], alone[1]);
 }
 
+TEST(World, ACopyGoesOnWithTheSameBits) {
+  for (const char* name : {"brick_wall", "house", "wrecking_ball", "steel_hall"}) {
+    World world = make_world(load_scene(name));
+    run(world, 0.7);
+    const World kept = world.copy();
+    std::vector<std::uint64_t> hashes;
+    for (int i = 0; i < 60; ++i) {
+      world.step(kFrame_s);
+      hashes.push_back(hash_of(world));
+    }
+    for (const bool again : {false, true}) {  // a kept world can be rolled back to more than once
+      world = kept.copy();
+      for (int i = 0; i < 60; ++i) {
+        if (again) world.set_threads(1);
+        world.step(kFrame_s);
+        ASSERT_EQ(hash_of(world), hashes[static_cast<std::size_t>(i)]) << name << ", " << i;
+      }
+    }
+  }
+}
+
+TEST(World, WhatHappensInACopyDoesNotTouchTheOther) {
+  World world = make_world(load_scene("brick_wall"));
+  run(world, 0.5);
+  World other = world.copy();
+  const std::uint64_t before = hash_of(world);
+  for (const BodyKey key : std::vector(other.bodies().key)) other.remove(key);
+  other.add(box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  run(other, 1);
+  other.frame();
+  EXPECT_EQ(hash_of(world), before);
+  World as_before = make_world(load_scene("brick_wall"));
+  run(as_before, 0.5);
+  run(as_before, 0.5);
+  run(world, 0.5);
+  EXPECT_EQ(hash_of(world), hash_of(as_before));
+}
+
+TEST(World, APlanarWorldRefusesToBeCopied) {
+  const World world = make_world(parse_scene(
+      "[scene]\ndescription = \"x\"\nplanar = true\n[[ball]]\nposition = [0, 5, 0]\n", "x.toml"));
+  EXPECT_THROW(world.copy(), InputError);
+}
+
 TEST(World, ABadCallNamesItselfAndItsArgumentAndChangesNothing) {
   World world = make_world(empty_scene());
   const BodyKey key = world.add(box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));

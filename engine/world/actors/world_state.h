@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/copied_ptr.h"
 #include "engine/model/material.h"
 #include "engine/model/physics.h"
 #include "engine/model/scene.h"
@@ -26,13 +27,14 @@
 namespace sunder {
 
 struct WorldState {
-  const Scene scene;  ///< As given.
+  const std::shared_ptr<const Scene> given;  ///< Shared with copies.
+  const Scene& scene = *given;               ///< As given.
   std::shared_ptr<const std::vector<Material>> materials;
   /// Names of the scene's solids, balls and shots, then others. Copied before it changes, as
   /// frames share it.
   std::shared_ptr<const std::vector<std::string>> names;
   const std::shared_ptr<const std::vector<Appearance>> appearances;  ///< Null if there are none.
-  const std::unique_ptr<Physics> physics;
+  const CopiedPtr<Physics> physics;
   Clock clock;
   Actors actors;
   Joints joints;
@@ -45,8 +47,8 @@ struct WorldState {
   double smallest_piece_factor = 1;
   std::optional<Exposed> exposed;  ///< None in a run without particles.
 
-  WorldState(Scene given, std::unique_ptr<Physics> moves)
-      : scene(std::move(given)),
+  WorldState(Scene as_given, std::unique_ptr<Physics> moves)
+      : given(std::make_shared<const Scene>(std::move(as_given))),
         materials(std::make_shared<const std::vector<Material>>(scene.materials)),
         names(std::make_shared<const std::vector<std::string>>(object_names(scene))),
         appearances(scene.appearances.empty()

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/base/copied_ptr.h"
 #include "engine/model/frame.h"
 #include "engine/model/particles.h"
 #include "engine/world/actors/world_state.h"
@@ -20,7 +21,7 @@ class ParticleStage {
   /// Without particles (null), there are neither debris nor dust.
   explicit ParticleStage(std::unique_ptr<Particles> particles) : particles_(std::move(particles)) {}
 
-  bool any() const { return particles_ != nullptr; }
+  bool any() const { return static_cast<bool>(particles_); }
   /// Number of particles of debris and dust, moving or at rest.
   std::uint64_t alive() const {
     const ParticleReport report = particles_->report();
@@ -32,7 +33,7 @@ class ParticleStage {
   void show(Frame& frame);
 
  private:
-  std::unique_ptr<Particles> particles_;
+  CopiedPtr<Particles> particles_;
   /// Particles not emitted because the limit was reached, up to the last frame.
   std::uint64_t ignored_debris_ = 0, ignored_dust_ = 0;
 };

@@ -14,6 +14,9 @@ constexpr std::size_t kCacheLine = 64;
 template <std::uint32_t kWidth>
 class BlocksOf final : public ContactBlocks {
  public:
+  std::unique_ptr<ContactBlocks> copy() const override {
+    return std::make_unique<BlocksOf<kWidth>>();
+  }
   std::uint32_t lanes() const override { return kWidth; }
   std::uint32_t size() const override { return used_; }
   void clear(std::size_t manifolds) override {

@@ -23,6 +23,8 @@ class ContactBlocks {
  public:
   virtual ~ContactBlocks() = default;
 
+  /// Returns blocks of as many lanes, without any manifolds: they hold nothing between solves.
+  virtual std::unique_ptr<ContactBlocks> copy() const = 0;
   virtual std::uint32_t lanes() const = 0;
   virtual std::uint32_t size() const = 0;
   /// Removes all blocks; `manifolds` is about the number that will be added.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/copied_ptr.h"
 #include "engine/model/limits_hit.h"
 #include "solver/base/stage_runner.h"
 #include "solver/rigid/body/bodies.h"
@@ -61,7 +62,7 @@ class ContactSolver {
   JointSolver joint_solver_;
   EnergyGuard energy_guard_;
   ImpactPass impact_pass_;
-  std::unique_ptr<ContactBlocks> blocks_;
+  CopiedPtr<ContactBlocks> blocks_;
   std::vector<StageItems> colors_;     ///< Blocks of each colour; split blocks are last.
   std::vector<BodySlot> active_;       ///< Awake bodies in contact or in a joint.
   std::vector<BodySlot> free_bodies_;  ///< Awake bodies without contacts.
