@@ -1,5 +1,5 @@
-// The whole public interface of Sunder as a library: make a simulation of a scene, and pump its
-// frames into sinks.
+// The whole public interface of Sunder as a library: make a world, act on it and ask it; or make a
+// simulation of a scene, and pump its frames into sinks.
 //
 //   #include <sunder/sunder.h>
 //
@@ -9,7 +9,7 @@
 //   sunder::FrameSink* const sinks[] = {video.get(), &hash};
 //   sunder::pump(*simulation, sinks);
 //
-// Read next: scene.h for the input, frame.h for the output.
+// Read next: world.h for a running world, scene.h for the input, frame.h for the output.
 #pragma once
 
 #include "engine/base/check.h"                  // InputError, FileError
@@ -19,6 +19,7 @@
 #include "engine/io/statistics.h"               // Statistics, StateHash
 #include "engine/model/compound.h"              // Part, Compound
 #include "engine/model/frame.h"                 // Frame, FrameSource, FrameSink, pump()
+#include "engine/model/collision_filter.h"
 #include "engine/model/joint.h"
 #include "engine/model/material.h"
 #include "engine/model/scene.h"
@@ -27,4 +28,5 @@
 #include "render/sinks.h"               // make_picture_sink()
 #include "scenes/file/make_compound.h"  // make_compound() of parts, or of a mesh
 #include "scenes/load.h"                // load_scene(), builtin_materials()
+#include "engine/world/world.h"  // World, Asset
 #include "scenes/make_simulation.h"
