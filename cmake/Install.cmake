@@ -25,6 +25,7 @@ set(public_headers
   render/image/image.h
   render/renderer.h
   render/sinks.h
+  scenes/api/sunder_c.h
   scenes/file/make_compound.h
   scenes/load.h
   scenes/make_simulation.h

@@ -67,6 +67,13 @@ endif()
 install(TARGETS sunder_options EXPORT sunderTargets)
 set_target_properties(sunder_options PROPERTIES EXPORT_NAME options)
 
+# Links a program in C with the sanitizers of the library that it uses.
+function(sunder_sanitize target)
+  if(SUNDER_SANITIZE)
+    target_link_options(${target} PRIVATE -fsanitize=${SUNDER_SANITIZE})
+  endif()
+endfunction()
+
 # Precompiles headers once for tests with the same flags, if SUNDER_QUICK_BUILD is on.
 function(sunder_precompile target first)
   if(NOT SUNDER_QUICK_BUILD)
