@@ -64,7 +64,7 @@ THIRD_PARTY = [
 SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|malloc|sched|signal|spawn|"
                     r"unistd|poll|errno|(imm|x86|arm_neo)intrin|cpuid)\.h")
 # Headers of C, for sources in C and for the header that is for both languages.
-C_SYSTEM = re.compile(r"(math|std(bool|def|int|io|lib)|string)\.h")
+C_SYSTEM = re.compile(r"(math|std(bool|def|int|io|lib)|string|time)\.h")
 C_HEADER = "scenes/api/sunder_c.h"
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 # The path of a file from the root, in a page or a comment.
