@@ -8,14 +8,14 @@ using namespace sunder;
 using namespace sunder::scenes;
 
 SunderResult sunder_world_remove_body(SunderWorld world, SunderBody body) {
-  return with_world("sunder_world_remove_body", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_remove_body", world, [&](WorldEntry& entry) {
     need_body(entry, body, "body");
     entry.world.remove(key_of(body));
   });
 }
 
 SunderResult sunder_world_remove_joint(SunderWorld world, SunderJoint joint) {
-  return with_world("sunder_world_remove_joint", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_remove_joint", world, [&](WorldEntry& entry) {
     need_joint(entry, joint, "joint");
     entry.world.remove(JointKey(std::size_t{joint.key}));
   });
@@ -23,7 +23,7 @@ SunderResult sunder_world_remove_joint(SunderWorld world, SunderJoint joint) {
 
 SunderResult sunder_world_move_to(SunderWorld world, SunderBody body, SunderPose X_WR,
                                   double duration_s) {
-  return with_world("sunder_world_move_to", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_move_to", world, [&](WorldEntry& entry) {
     need_body(entry, body, "body");
     need_vector(X_WR.position, kMaxPosition_m, "X_WR.position");
     entry.world.move_to(key_of(body), pose(X_WR), duration_s);
@@ -31,7 +31,7 @@ SunderResult sunder_world_move_to(SunderWorld world, SunderBody body, SunderPose
 }
 
 SunderResult sunder_world_release(SunderWorld world, SunderBody body) {
-  return with_world("sunder_world_release", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_release", world, [&](WorldEntry& entry) {
     need_body(entry, body, "body");
     entry.world.release(key_of(body));
   });
@@ -39,7 +39,7 @@ SunderResult sunder_world_release(SunderWorld world, SunderBody body) {
 
 SunderResult sunder_world_apply_impulse(SunderWorld world, SunderBody body, SunderVec3 impulse_W,
                                         SunderVec3 point_W) {
-  return with_world("sunder_world_apply_impulse", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_apply_impulse", world, [&](WorldEntry& entry) {
     need_body(entry, body, "body");
     need_vector(impulse_W, kMaxImpulse_Ns, "impulse_W");
     need_vector(point_W, kMaxPosition_m, "point_W");
@@ -50,7 +50,7 @@ SunderResult sunder_world_apply_impulse(SunderWorld world, SunderBody body, Sund
 SunderResult sunder_world_break_at(SunderWorld world, SunderBody body, SunderVec3 point_W,
                                    SunderVec3 direction_W, double energy_J,
                                    const SunderPatternDef* pattern) {
-  return with_world("sunder_world_break_at", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_break_at", world, [&](WorldEntry& entry) {
     need_body(entry, body, "body");
     need_vector(point_W, kMaxPosition_m, "point_W");
     need_vector(direction_W, kMaxPosition_m, "direction_W");
@@ -61,20 +61,20 @@ SunderResult sunder_world_break_at(SunderWorld world, SunderBody body, SunderVec
 }
 
 SunderResult sunder_world_set_user_data(SunderWorld world, SunderBody body, uint64_t user_data) {
-  return with_world("sunder_world_set_user_data", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_set_user_data", world, [&](WorldEntry& entry) {
     need_body(entry, body, "body");
     entry.world.set_user_data(key_of(body), user_data);
   });
 }
 
 SunderResult sunder_world_set_filter(SunderWorld world, SunderBody body, SunderFilter filter) {
-  return with_world("sunder_world_set_filter", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_set_filter", world, [&](WorldEntry& entry) {
     need_body(entry, body, "body");
     entry.world.set_filter(key_of(body), filter_of(filter));
   });
 }
 
 SunderResult sunder_world_report_hits(SunderWorld world, double least_m_s) {
-  return with_world("sunder_world_report_hits", world,
-                    [&](WorldEntry& entry) { entry.world.report_hits(least_m_s); });
+  return change_world("sunder_world_report_hits", world,
+                      [&](WorldEntry& entry) { entry.world.report_hits(least_m_s); });
 }

@@ -78,35 +78,35 @@ static_assert(kStages == SUNDER_STAGES && static_cast<int>(Stage::kAct) == SUNDE
               static_cast<int>(Stage::kSnapshot) == SUNDER_STAGE_SNAPSHOT);
 
 SunderResult sunder_world_time(SunderWorld world, double* time_s) {
-  return with_world("sunder_world_time", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_time", world, [&](WorldEntry& entry) {
     need_pointer(time_s, "time_s");
     *time_s = entry.world.time_s();
   });
 }
 
 SunderResult sunder_world_contains_body(SunderWorld world, SunderBody body, bool* is_in) {
-  return with_world("sunder_world_contains_body", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_contains_body", world, [&](WorldEntry& entry) {
     need_pointer(is_in, "is_in");
     *is_in = entry.world.contains(key_of(body));
   });
 }
 
 SunderResult sunder_world_contains_joint(SunderWorld world, SunderJoint joint, bool* is_in) {
-  return with_world("sunder_world_contains_joint", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_contains_joint", world, [&](WorldEntry& entry) {
     need_pointer(is_in, "is_in");
     *is_in = entry.world.contains(JointKey(std::size_t{joint.key}));
   });
 }
 
 SunderResult sunder_world_body_count(SunderWorld world, uint32_t* count) {
-  return with_world("sunder_world_body_count", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_body_count", world, [&](WorldEntry& entry) {
     need_pointer(count, "count");
     *count = count_of(entry.world.size());
   });
 }
 
 SunderResult sunder_world_body(SunderWorld world, SunderBody body, SunderBodyInfo* info) {
-  return with_world("sunder_world_body", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_body", world, [&](WorldEntry& entry) {
     need_pointer(info, "info");
     need_body(entry, body, "body");
     const BodyView view = entry.world.body(key_of(body));
@@ -130,7 +130,7 @@ SunderResult sunder_world_body(SunderWorld world, SunderBody body, SunderBodyInf
 
 SunderResult sunder_world_bodies(SunderWorld world, const SunderBodyArrays* arrays,
                                  uint32_t* count) {
-  return with_world("sunder_world_bodies", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_bodies", world, [&](WorldEntry& entry) {
     need_pointer(count, "count");
     const BodyArrays& all = entry.world.bodies();
     const std::uint32_t room = *count, needed = count_of(all.key.size());
@@ -156,7 +156,7 @@ SunderQuery sunder_default_query() { return {kQueryCookie, 0xffffffffu, true, {S
 SunderResult sunder_world_cast(SunderWorld world, SunderVec3 from_W, SunderVec3 direction_W,
                                double most_m, double radius_m, const SunderQuery* query,
                                SunderCastHit* hit, bool* found) {
-  return with_world("sunder_world_cast", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_cast", world, [&](WorldEntry& entry) {
     need_pointer(hit, "hit");
     need_pointer(found, "found");
     need_ray(from_W, direction_W);
@@ -170,7 +170,7 @@ SunderResult sunder_world_cast(SunderWorld world, SunderVec3 from_W, SunderVec3 
 SunderResult sunder_world_cast_all(SunderWorld world, SunderVec3 from_W, SunderVec3 direction_W,
                                    double most_m, double radius_m, const SunderQuery* query,
                                    SunderCastHit* hits, uint32_t* count) {
-  return with_world("sunder_world_cast_all", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_cast_all", world, [&](WorldEntry& entry) {
     need_pointer(count, "count");
     need_ray(from_W, direction_W);
     fill(entry.world.cast_all(vec(from_W), vec(direction_W), most_m, radius_m, query_filter(query)),
@@ -181,7 +181,7 @@ SunderResult sunder_world_cast_all(SunderWorld world, SunderVec3 from_W, SunderV
 SunderResult sunder_world_overlap_ball(SunderWorld world, SunderVec3 center_W, double radius_m,
                                        const SunderQuery* query, SunderOverlap* overlaps,
                                        uint32_t* count) {
-  return with_world("sunder_world_overlap_ball", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_overlap_ball", world, [&](WorldEntry& entry) {
     need_pointer(count, "count");
     need_vector(center_W, kMaxPosition_m, "center_W");
     fill(entry.world.overlap(vec(center_W), radius_m, query_filter(query)), overlaps, count,
@@ -192,7 +192,7 @@ SunderResult sunder_world_overlap_ball(SunderWorld world, SunderVec3 center_W, d
 SunderResult sunder_world_overlap_box(SunderWorld world, SunderVec3 min_W, SunderVec3 max_W,
                                       const SunderQuery* query, SunderOverlap* overlaps,
                                       uint32_t* count) {
-  return with_world("sunder_world_overlap_box", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_overlap_box", world, [&](WorldEntry& entry) {
     need_pointer(count, "count");
     need_vector(min_W, kMaxPosition_m, "min_W");
     need_vector(max_W, kMaxPosition_m, "max_W");
@@ -203,7 +203,7 @@ SunderResult sunder_world_overlap_box(SunderWorld world, SunderVec3 min_W, Sunde
 
 SunderResult sunder_world_contacts(SunderWorld world, SunderBody body, SunderContact* contacts,
                                    uint32_t* count) {
-  return with_world("sunder_world_contacts", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_contacts", world, [&](WorldEntry& entry) {
     need_pointer(count, "count");
     need_body(entry, body, "body");
     fill(entry.world.contacts(key_of(body)), contacts, count, "contacts",
@@ -214,7 +214,7 @@ SunderResult sunder_world_contacts(SunderWorld world, SunderBody body, SunderCon
 }
 
 SunderResult sunder_world_events(SunderWorld world, SunderEvents* events) {
-  return with_world("sunder_world_events", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_events", world, [&](WorldEntry& entry) {
     need_pointer(events, "events");
     if (!entry.events) entry.events = event_arrays(entry.world.events());
     const EventArrays& arrays = *entry.events;
@@ -229,7 +229,7 @@ SunderResult sunder_world_events(SunderWorld world, SunderEvents* events) {
 }
 
 SunderResult sunder_world_report(SunderWorld world, SunderReport* report) {
-  return with_world("sunder_world_report", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_report", world, [&](WorldEntry& entry) {
     need_pointer(report, "report");
     const FrameReport& last = entry.world.report();
     SunderReport copy{};
@@ -258,7 +258,7 @@ SunderResult sunder_world_report(SunderWorld world, SunderReport* report) {
 }
 
 SunderResult sunder_world_state_hash(SunderWorld world, uint64_t* hash) {
-  return with_world("sunder_world_state_hash", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_state_hash", world, [&](WorldEntry& entry) {
     need_pointer(hash, "hash");
     *hash = hash_state(*entry.world.frame());
   });

@@ -1,6 +1,7 @@
 // What all functions of the C interface share: memory, errors, and handles. Internal to scenes/api.
 //
-// Read first: guard(), in which every function that can fail runs, and with_world().
+// Read first: guard(), in which every function that can fail runs, then ask_world() and
+// change_world().
 #pragma once
 
 #include <cmath>
@@ -80,6 +81,7 @@ enum Cookie : std::uint32_t {
   kJointCookie,
   kShotCookie,
   kBlastCookie,
+  kDriveCookie,
   kQueryCookie,
 };
 
@@ -198,22 +200,30 @@ void need_joint(const WorldEntry& entry, SunderJoint joint, const char* name);
 /// Throws SUNDER_ERROR_INTERNAL if a call did not end.
 void need_complete(const WorldEntry& entry);
 
-/// Runs the body of a call for a world, which no other call uses meanwhile. An error that is not
-/// about the arguments may leave the world incomplete.
+/// Runs the body of a call that asks a world, which no other call uses meanwhile.
 template <class Body>
-SunderResult with_world(const char* call, SunderWorld handle, const Body& body) noexcept {
+SunderResult ask_world(const char* call, SunderWorld handle, const Body& body) noexcept {
   return guard(call, SUNDER_ERROR_ARGUMENT, [&] {
     const WorldPtr entry = find_world(handle);
     const std::lock_guard lock(entry->mutex);
     need_complete(*entry);
+    body(*entry);
+  });
+}
+
+/// Runs the body of a call that changes a world. An error that is not about the arguments may leave
+/// the world incomplete.
+template <class Body>
+SunderResult change_world(const char* call, SunderWorld handle, const Body& body) noexcept {
+  return ask_world(call, handle, [&](WorldEntry& entry) {
     try {
-      body(*entry);
+      body(entry);
     } catch (const InputError&) {
       throw;
     } catch (const CallError&) {
       throw;
     } catch (...) {
-      entry->incomplete = true;
+      entry.incomplete = true;
       throw;
     }
   });

@@ -70,7 +70,7 @@ using namespace sunder;
 using namespace sunder::scenes;
 
 SunderResult sunder_world_frame(SunderWorld world, SunderFrame* frame) {
-  return with_world("sunder_world_frame", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_frame", world, [&](WorldEntry& entry) {
     need_pointer(frame, "frame");
     FramePtr present = entry.world.frame();
     if (!entry.frame || entry.frame->frame != present) {
@@ -91,7 +91,7 @@ SunderResult sunder_world_frame(SunderWorld world, SunderFrame* frame) {
 }
 
 SunderResult sunder_world_mesh(SunderWorld world, uint32_t mesh, SunderMesh* out) {
-  return with_world("sunder_world_mesh", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_mesh", world, [&](WorldEntry& entry) {
     need_pointer(out, "out");
     if (!entry.frame) refuse("there is no frame; call sunder_world_frame() before");
     FrameArrays& arrays = *entry.frame;

@@ -223,7 +223,7 @@ SunderResult sunder_world_destroy(SunderWorld world) {
 bool sunder_world_is_valid(SunderWorld world) { return has_world(world); }
 
 SunderResult sunder_world_step(SunderWorld world, double time_s) {
-  return with_world("sunder_world_step", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_step", world, [&](WorldEntry& entry) {
     entry.world.step(time_s);
     entry.events.reset();
   });
@@ -243,7 +243,7 @@ SunderResult sunder_builtin_material(const char* name, SunderMaterial* material)
 }
 
 SunderResult sunder_world_material(SunderWorld world, const char* name, SunderMaterial* material) {
-  return with_world("sunder_world_material", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_material", world, [&](WorldEntry& entry) {
     need_pointer(material, "material");
     *material = material_called(entry.materials, name);
   });
@@ -251,7 +251,7 @@ SunderResult sunder_world_material(SunderWorld world, const char* name, SunderMa
 
 SunderResult sunder_world_material_def(SunderWorld world, SunderMaterial material,
                                        SunderMaterialDef* def) {
-  return with_world("sunder_world_material_def", world, [&](WorldEntry& entry) {
+  return ask_world("sunder_world_material_def", world, [&](WorldEntry& entry) {
     need_pointer(def, "def");
     const Material& base = material_at(entry, material, "material");
     SunderMaterialDef copy{};
@@ -284,7 +284,7 @@ SunderResult sunder_world_material_def(SunderWorld world, SunderMaterial materia
 
 SunderResult sunder_world_add_material(SunderWorld world, const SunderMaterialDef* def,
                                        SunderMaterial* material) {
-  return with_world("sunder_world_add_material", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_add_material", world, [&](WorldEntry& entry) {
     need_def(def, kMaterialCookie, "def", "sunder_world_material_def");
     need_pointer(material, "material");
     const Material added = material_from(material_at(entry, def->base, "def.base"), *def);
@@ -325,7 +325,7 @@ SunderJointDef sunder_default_joint_def() {
 
 SunderResult sunder_world_add_solid(SunderWorld world, SunderAsset asset,
                                     const SunderSolidDef* solid, SunderBody* body) {
-  return with_world("sunder_world_add_solid", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_add_solid", world, [&](WorldEntry& entry) {
     const AssetPtr shared = find_asset(asset);
     need_def(solid, kSolidCookie, "solid", "sunder_default_solid_def");
     need_motion(solid->motion, "solid.motion");
@@ -337,7 +337,7 @@ SunderResult sunder_world_add_solid(SunderWorld world, SunderAsset asset,
 }
 
 SunderResult sunder_world_add_ball(SunderWorld world, const SunderBallDef* ball, SunderBody* body) {
-  return with_world("sunder_world_add_ball", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_add_ball", world, [&](WorldEntry& entry) {
     need_pointer(ball, "ball");
     const BodyKey key = entry.world.add(ball_of(*ball, "ball"));
     if (body) *body = body_of(key);
@@ -346,7 +346,7 @@ SunderResult sunder_world_add_ball(SunderWorld world, const SunderBallDef* ball,
 
 SunderResult sunder_world_add_joint(SunderWorld world, const SunderJointDef* joint,
                                     SunderJoint* key) {
-  return with_world("sunder_world_add_joint", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_add_joint", world, [&](WorldEntry& entry) {
     need_def(joint, kJointCookie, "joint", "sunder_default_joint_def");
     need_number(joint->kind, SUNDER_JOINT_BALL, SUNDER_JOINT_ROPE, "joint.kind");
     need_vector(joint->at_W, kMaxPosition_m, "joint.at_W");
@@ -383,7 +383,7 @@ SunderBlastDef sunder_default_blast_def() {
 }
 
 SunderResult sunder_world_shoot(SunderWorld world, const SunderShotDef* shot) {
-  return with_world("sunder_world_shoot", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_shoot", world, [&](WorldEntry& entry) {
     need_def(shot, kShotCookie, "shot", "sunder_default_shot_def");
     Shot made;
     made.time_s = shot->time_s;
@@ -397,7 +397,7 @@ SunderResult sunder_world_shoot(SunderWorld world, const SunderShotDef* shot) {
 }
 
 SunderResult sunder_world_blast(SunderWorld world, const SunderBlastDef* blast) {
-  return with_world("sunder_world_blast", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_blast", world, [&](WorldEntry& entry) {
     need_def(blast, kBlastCookie, "blast", "sunder_default_blast_def");
     need_vector(blast->center_W, kMaxPosition_m, "blast.center_W");
     Blast made;
@@ -412,9 +412,45 @@ SunderResult sunder_world_blast(SunderWorld world, const SunderBlastDef* blast) 
   });
 }
 
+SunderDriveDef sunder_default_drive_def() {
+  const Drive drive;
+  SunderDriveDef def{};
+  def.cookie = kDriveCookie;
+  def.until_s = kInfinity;
+  def.force_N = drive.force_N;
+  def.torque_Nm = drive.torque_Nm;
+  return def;
+}
+
+SunderResult sunder_world_drive(SunderWorld world, const SunderDriveDef* drive) {
+  return change_world("sunder_world_drive", world, [&](WorldEntry& entry) {
+    need_def(drive, kDriveCookie, "drive", "sunder_default_drive_def");
+    if (drive->body_count == 0) refuse("drive.body_count is 0; expected one body or more");
+    need_pointer(drive->bodies, "drive.bodies");
+    Drive made;
+    made.time_s = drive->time_s;
+    made.until_s = drive->until_s;
+    for (std::uint32_t i = 0; i < drive->body_count; ++i) {
+      need_body(entry, drive->bodies[i], "an element of drive.bodies");
+      made.roots.push_back(drive->bodies[i].key);
+    }
+    if (drive->has_velocity) {
+      need_vector(drive->velocity_W, kMaxSpeed_m_s, "drive.velocity_W");
+      made.velocity_W = vec(drive->velocity_W);
+    }
+    if (drive->has_angular_velocity) {
+      need_vector(drive->angular_velocity_W, kMaxSpeed_m_s, "drive.angular_velocity_W");
+      made.angular_velocity_W = vec(drive->angular_velocity_W);
+    }
+    made.force_N = drive->force_N;
+    made.torque_Nm = drive->torque_Nm;
+    entry.world.drive(made);
+  });
+}
+
 SunderResult sunder_world_set_motion(SunderWorld world, SunderBody body,
                                      const SunderMotion* motion) {
-  return with_world("sunder_world_set_motion", world, [&](WorldEntry& entry) {
+  return change_world("sunder_world_set_motion", world, [&](WorldEntry& entry) {
     need_pointer(motion, "motion");
     need_body(entry, body, "body");
     need_motion(*motion, "motion");

@@ -69,7 +69,8 @@ SUNDER_API const char* sunder_last_error(void);
 SUNDER_API const char* sunder_version(void);
 
 /// Functions that replace malloc() and free(). Both are called by any thread, with the user pointer
-/// of sunder_set_allocator(). The memory is aligned as by malloc(); null means that there is none.
+/// of sunder_set_allocator(), and must not call functions of this interface. The memory is aligned
+/// as by malloc(); null means that there is none.
 typedef void* (*SunderAlloc)(size_t bytes, void* user);
 typedef void (*SunderFree)(void* memory, void* user);
 
@@ -423,8 +424,27 @@ typedef struct SunderBlastDef {
 /// Returns a blast in the next step at the origin of 1000 N s/m² with a reach of 4 m.
 SUNDER_API SunderBlastDef sunder_default_blast_def(void);
 
+/// A motor: holds bodies at a velocity by limited force, at an angular velocity by limited torque,
+/// or both, until they break.
+typedef struct SunderDriveDef {
+  uint32_t cookie;           ///< Set by sunder_default_drive_def().
+  double time_s, until_s;    ///< Times of the world.
+  const SunderBody* bodies;  ///< Solids or balls, not pieces of them.
+  uint32_t body_count;
+  bool has_velocity;  ///< True: `velocity_W` is held.
+  SunderVec3 velocity_W;
+  double force_N;
+  bool has_angular_velocity;  ///< True: `angular_velocity_W` is held.
+  SunderVec3 angular_velocity_W;
+  double torque_Nm;
+} SunderDriveDef;
+
+/// Returns a motor without bodies or velocities, from now on, with 1e6 N and 1e6 N m.
+SUNDER_API SunderDriveDef sunder_default_drive_def(void);
+
 SUNDER_API SunderResult sunder_world_shoot(SunderWorld world, const SunderShotDef* shot);
 SUNDER_API SunderResult sunder_world_blast(SunderWorld world, const SunderBlastDef* blast);
+SUNDER_API SunderResult sunder_world_drive(SunderWorld world, const SunderDriveDef* drive);
 
 /// Removes a body, with its joints.
 SUNDER_API SunderResult sunder_world_remove_body(SunderWorld world, SunderBody body);

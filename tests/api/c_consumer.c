@@ -262,6 +262,19 @@ static void acts(void) {
   OK(sunder_world_body(world, b, &info));
   EXPECT(!info.is_kinematic);
 
+  SunderDriveDef drive = sunder_default_drive_def();
+  REFUSED(sunder_world_drive(world, &drive), ARGUMENT, "drive.body_count is 0");
+  drive.bodies = &b;
+  drive.body_count = 1;
+  REFUSED(sunder_world_drive(world, &drive), ARGUMENT, "drive has no velocity");
+  drive.has_velocity = true;
+  drive.velocity_W = vec(0, 0, 2);
+  OK(sunder_world_drive(world, &drive));
+  OK(sunder_world_step(world, 0.05));
+  OK(sunder_world_body(world, b, &info));
+  EXPECT(fabs(info.motion.velocity_W.z - 2) < 1e-3 &&
+         fabs(info.motion.velocity_W.y) < 0.1);  // gravity of a step
+
   const SunderFilter nothing = {2, 0};
   OK(sunder_world_set_filter(world, b, nothing));
   OK(sunder_world_set_user_data(world, b, 7));
@@ -534,6 +547,12 @@ static void allocator(void) {
   OK(sunder_world_frame(world, &frame));
   EXPECT(frame.instance_count == 1);
   EXPECT(most >= 3);
+  budget = live - 1;  // no more than there is without the arrays of the frame
+  OK(sunder_world_step(world, 0.01));
+  REFUSED(sunder_world_frame(world, &frame), MEMORY, "sunder_world_frame(): there is not enough");
+  budget = 0;
+  OK(sunder_world_frame(world, &frame));
+  EXPECT(frame.instance_count == 1);
   OK(sunder_world_destroy(world));
 
   budget = live;  // no more than the table of handles

@@ -316,7 +316,8 @@ static bool act(SunderWorld world) {
   SunderShotDef shot = sunder_default_shot_def();
   SunderBlastDef blast = sunder_default_blast_def();
   SunderPatternDef pattern = any_pattern();
-  switch (below(12)) {
+  SunderDriveDef drive = sunder_default_drive_def();
+  switch (below(13)) {
     case 0:
       return done(sunder_world_set_motion(world, body, one_in(100) ? NULL : &motion));
     case 1:
@@ -347,6 +348,18 @@ static bool act(SunderWorld world) {
       shot.hangs = one_in(4);
       shot.hangs_from_W = place();
       return done(sunder_world_shoot(world, &shot));
+    case 11:
+      drive.time_s = number(-1, 3);
+      drive.until_s = number(0, 10);
+      drive.bodies = one_in(100) ? NULL : &body;
+      drive.body_count = below(20) > 0;
+      drive.has_velocity = one_in(2);
+      drive.velocity_W = vector(5);
+      drive.has_angular_velocity = one_in(2);
+      drive.angular_velocity_W = vector(5);
+      if (one_in(2)) drive.force_N = number(0, 1e6);
+      if (one_in(2)) drive.torque_Nm = number(0, 1e6);
+      return done(sunder_world_drive(world, &drive));
     default:
       blast.time_s = number(-1, 3);
       blast.center_W = place();
