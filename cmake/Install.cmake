@@ -1,6 +1,7 @@
 # Installs the package for find_package(sunder), with the target sunder::sunder, for users of
-# #include <sunder/sunder.h>. The target links the libraries of the modules. Only the headers listed
-# here are installed.
+# #include <sunder/sunder.h>, and the target sunder::c, for users of #include <sunder/sunder_c.h>.
+# The first links the libraries of the modules, the second the shared library alone:
+# find_package(sunder COMPONENTS c) needs nothing else. Only the headers listed here are installed.
 
 include(CMakePackageConfigHelpers)
 
@@ -25,6 +26,7 @@ set(public_headers
   render/image/image.h
   render/renderer.h
   render/sinks.h
+  scenes/api/sunder_c.h
   scenes/file/make_compound.h
   scenes/load.h
   scenes/make_simulation.h
@@ -50,6 +52,7 @@ target_include_directories(sunder_library INTERFACE
 target_link_libraries(sunder_library INTERFACE sunder_scenes sunder_render)
 set_target_properties(sunder_library PROPERTIES EXPORT_NAME sunder)
 install(TARGETS sunder_library EXPORT sunderTargets)
+install(TARGETS sunder_c EXPORT sunderCTargets)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sunder)
 set(scenes_dir ${CMAKE_INSTALL_DATADIR}/sunder/scenes)
@@ -61,3 +64,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/sunderConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/sunderConfig.cmake
   ${PROJECT_BINARY_DIR}/sunderConfigVersion.cmake DESTINATION ${package_dir})
 install(EXPORT sunderTargets NAMESPACE sunder:: DESTINATION ${package_dir})
+install(EXPORT sunderCTargets NAMESPACE sunder:: DESTINATION ${package_dir})

@@ -67,6 +67,14 @@ endif()
 install(TARGETS sunder_options EXPORT sunderTargets)
 set_target_properties(sunder_options PROPERTIES EXPORT_NAME options)
 
+# Links a program in C with the sanitizers of the library that it uses, by the compiler of that.
+function(sunder_sanitize target)
+  if(SUNDER_SANITIZE)
+    target_link_options(${target} PRIVATE -fsanitize=${SUNDER_SANITIZE})
+    set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  endif()
+endfunction()
+
 # Precompiles headers once for tests with the same flags, if SUNDER_QUICK_BUILD is on.
 function(sunder_precompile target first)
   if(NOT SUNDER_QUICK_BUILD)

@@ -6,5 +6,6 @@ case $("${format:-false}" --version 2>/dev/null) in
   *"version 14."*) ;;
   *) echo "clang-format 14 is missing: apt-get install clang-format-14"; exit 77 ;;
 esac
-find engine fracture solver render scenes bench tests \( -name '*.h' -o -name '*.cpp' \) -print0 |
+find engine fracture solver render scenes bench tests examples \
+  \( -name '*.h' -o -name '*.cpp' -o -name '*.c' \) -print0 |
   xargs -0 "$format" --dry-run -Werror

@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-MODULES = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests")
+MODULES = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests", "examples")
 
 # Layers of each module, from the lowest up; "" is the module's own folder. A file may include files
 # of its own folder and of lower layers, but not of higher ones or of another folder of its layer. A
@@ -22,8 +22,8 @@ LAYERS = {
                ("rigid/joint",), ("rigid/contact/kernels",), ("rigid/contact",),
                ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
-    "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("report",), ("timing", "trade"),
-               ("app",)),
+    "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("report", "api"),
+               ("timing", "trade"), ("app",)),
 }
 LAYER_OF = {str(Path(module, folder)): layer for module, layers in LAYERS.items()
             for layer, folders in enumerate(layers) for folder in folders}
@@ -43,6 +43,7 @@ MAY_INCLUDE = {
     "tests/fixtures": LIBRARIES | {"tests/fixtures"},
     "bench": LIBRARIES | {"tests/fixtures", "bench"},
     "tests": LIBRARIES | {"tests/fixtures", "bench", "tests"},
+    "examples": {"examples"},
 }
 
 # Third-party header -> the modules or paths that may include it.
@@ -55,13 +56,16 @@ THIRD_PARTY = [
     (r"(EGL|GL|GLES\d|KHR|stb)/.*", ("render/",)),
     (r"toml\+\+/.*", ("scenes/",)),
     (r"CLI/.*", ("scenes/app/",)),
-    (r"sunder/.*", ("tests/consumer/",)),  # the installed library
+    (r"sunder/.*", ("tests/consumer/", "examples/")),  # the installed library
     (r"benchmark/.*", ("bench/",)),
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
     (r"(gtest|gmock|rapidcheck)(/.*|\.h)", ("tests/",)),
 ]
 SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|malloc|sched|signal|spawn|"
                     r"unistd|poll|errno|(imm|x86|arm_neo)intrin|cpuid)\.h")
+# Headers of C, for sources in C and for the header that is for both languages.
+C_SYSTEM = re.compile(r"(math|std(bool|def|int|io|lib)|string|time)\.h")
+C_HEADER = "scenes/api/sunder_c.h"
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 # The path of a file from the root, in a page or a comment.
 MENTION = re.compile(r"(?<![\w./*])((?:%s|docs|cmake)/[\w/-]+\.(?:h|cpp|py|md|toml|sh|cmake))\b"
@@ -70,9 +74,9 @@ PRAGMA_OMP = re.compile(r"^\s*#\s*pragma\s+omp\b", re.MULTILINE)
 
 
 def sources(root):
-    """Returns the paths of the modules' C++ files, relative to the root, sorted."""
+    """Returns the paths of the modules' sources in C++ and C, relative to the root, sorted."""
     found = [path for module in MODULES for path in (root / module).rglob("*")]
-    return sorted(path.relative_to(root) for path in found if path.suffix in (".h", ".cpp"))
+    return sorted(path.relative_to(root) for path in found if path.suffix in (".h", ".cpp", ".c"))
 
 
 def owner(path):
@@ -115,7 +119,8 @@ def check_foreign_include(path, header):
             if str(path).startswith(tuple(places)):
                 return None
             return f"<{header}> is allowed only in {', '.join(places)}"
-    if SYSTEM.fullmatch(header):
+    is_c = path.suffix == ".c" or str(path) == C_HEADER
+    if (C_SYSTEM if is_c else SYSTEM).fullmatch(header):
         return None
     return f"<{header}> is of no module: use the C++ header, or add it in check_layers.py"
 
@@ -156,21 +161,21 @@ def check_source(root, path):
 
 
 def listed(root):
-    """Returns the .cpp paths that the modules' CMakeLists.txt name, relative to the root, without
+    """Returns the .cpp and .c paths that the modules' CMakeLists.txt name, relative to the root, without
     generated ones, which begin with a variable."""
     names = set()
     for module in MODULES:
         for cmake in (root / module).rglob("CMakeLists.txt"):
             text = re.sub(r"#.*", "", cmake.read_text(encoding="utf-8"))
             names |= {(cmake.parent / name).resolve().relative_to(root)
-                      for name in re.findall(r"(?<![\w./+}-])[\w.+-][\w./+-]*\.cpp\b", text)}
+                      for name in re.findall(r"(?<![\w./+}-])[\w.+-][\w./+-]*\.(?:cpp|c)\b", text)}
     return names
 
 
 def check_tree(root):
     """Returns all messages about the source tree at `root`, as "path: message"."""
     root = Path(root).resolve()
-    strays = [path for path in root.glob("*") if path.suffix in (".h", ".cpp")]
+    strays = [path for path in root.glob("*") if path.suffix in (".h", ".cpp", ".c")]
     messages = [f"{path.name}: a source outside the modules" for path in strays]
     messages += check_folders(sources(root))
     in_cmake = listed(root)
@@ -181,7 +186,7 @@ def check_tree(root):
     for path in sources(root):
         messages += [f"{path}: {message}"
                      for message in check_source(root, path) + check_mentions(root, path)]
-        if path.suffix == ".cpp" and path not in in_cmake:
+        if path.suffix in (".cpp", ".c") and path not in in_cmake:
             messages.append(f"{path}: listed in no CMakeLists.txt")
     return messages
 

@@ -9,9 +9,9 @@ import re
 import sys
 from pathlib import Path
 
-FOLDERS = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests", "docs", "cmake")
-SUFFIXES = (".h", ".cpp", ".in", ".vert", ".frag", ".glsl", ".cmake", ".py", ".sh", ".toml", ".md")
-C_LIKE = (".h", ".cpp", ".in", ".vert", ".frag", ".glsl")
+FOLDERS = ("engine", "fracture", "solver", "render", "scenes", "bench", "tests", "examples", "docs", "cmake")
+SUFFIXES = (".h", ".cpp", ".c", ".in", ".vert", ".frag", ".glsl", ".cmake", ".py", ".sh", ".toml", ".md")
+C_LIKE = (".h", ".cpp", ".c", ".in", ".vert", ".frag", ".glsl")
 WORDS_FILE = "tests/retired_words.txt"
 # The list itself, and the sources of this check, which have retired words as examples.
 SELF = ("tests/retired_words.txt", "tests/check_words.py", "tests/check_words_test.py")
@@ -20,7 +20,7 @@ SELF = ("tests/retired_words.txt", "tests/check_words.py", "tests/check_words_te
 # that each of the two groups of folders may have a few.
 OPENINGS = re.compile(r"(What|Whether|Of|Who|Where|How|Lets|That)\b")
 MAX_OPENINGS = 30
-OPENING_GROUPS = (("engine", "fracture", "solver", "render", "scenes"), ("bench", "tests"))
+OPENING_GROUPS = (("engine", "fracture", "solver", "render", "scenes"), ("bench", "tests", "examples"))
 
 # A comment of C++ or GLSL, or a string; strings are matched so that "//" in them begins no comment.
 C_TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -150,7 +150,7 @@ def check_tree(root):
             for offset in term.find(path, text if term.is_identifier else words, names):
                 line = text.count("\n", 0, offset) + 1
                 messages.append(f"{path}:{line}: {term.name}: use {term.instead}")
-        if path.endswith((".h", ".cpp")):
+        if path.endswith((".h", ".cpp", ".c")):
             for group in OPENING_GROUPS:
                 if path.startswith(tuple(folder + "/" for folder in group)):
                     begun[group] += [f"{path}:{line}: {words}" for line, words in openings(path, text)]

@@ -63,12 +63,15 @@ std::uint64_t hash_body(const FrameBody& body) {
 
 void StateHash::take(const FramePtr& frame) { per_frame_.push_back(hash_state(*frame)); }
 
-std::string StateHash::hex(std::size_t frames) const {
+std::string hash_run(std::span<const std::uint64_t> states) {
   char text[17];
-  const std::size_t count = std::min(frames, per_frame_.size());
-  const XXH64_hash_t all = XXH3_64bits(per_frame_.data(), count * sizeof(std::uint64_t));
+  const XXH64_hash_t all = XXH3_64bits(states.data(), states.size_bytes());
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(all));
   return text;
+}
+
+std::string StateHash::hex(std::size_t frames) const {
+  return hash_run(std::span(per_frame_).first(std::min(frames, per_frame_.size())));
 }
 
 }  // namespace sunder

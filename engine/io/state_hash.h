@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 
 #include "engine/model/frame.h"
 
@@ -15,5 +17,8 @@ std::uint64_t hash_state(const Frame& frame);
 
 /// Returns the hash of the same fields of one body.
 std::uint64_t hash_body(const FrameBody& body);
+
+/// Returns the hash of a run, 16 hexadecimal digits, from the hashes of its states.
+std::string hash_run(std::span<const std::uint64_t> states);
 
 }  // namespace sunder

@@ -1,0 +1,159 @@
+// A scene that is run through the C interface has the states that it has through World.
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/statistics.h"
+#include "scenes/api/sunder_c.h"
+#include "scenes/file/make_compound.h"
+#include "scenes/load.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+std::string c_hash(SunderWorld world, int frames) {
+  std::vector<std::uint64_t> states;
+  for (int i = 0; i <= frames; ++i) {
+    const SunderResult result = i > 0 ? sunder_world_step(world, kFrame_s) : SUNDER_OK;
+    EXPECT_EQ(result, SUNDER_OK) << sunder_last_error();
+    states.emplace_back();
+    EXPECT_EQ(sunder_world_state_hash(world, &states.back()), SUNDER_OK) << sunder_last_error();
+  }
+  char hex[17];
+  EXPECT_EQ(sunder_run_hash(states.data(), static_cast<uint32_t>(states.size()), hex), SUNDER_OK);
+  return hex;
+}
+
+std::string world_hash(World& world, int frames) {
+  StateHash hash;
+  for (int i = 0; i <= frames; ++i) {
+    if (i > 0) world.step(kFrame_s);
+    hash.take(world.frame());
+  }
+  return hash.hex();
+}
+
+SunderWorld c_world(const char* scene, int threads) {
+  SunderWorldDef def = sunder_default_world_def();
+  def.scene = scene;
+  def.scenes_folder = SUNDER_SCENES_FOLDER;
+  def.threads = threads;
+  SunderWorld world{};
+  EXPECT_EQ(sunder_world_create(&def, &world), SUNDER_OK) << sunder_last_error();
+  return world;
+}
+
+TEST(CStates, AreThoseOfASimulationOfASceneByName) {
+  for (const char* name : {"glass", "archway"}) {
+    const auto simulation = make_simulation(load_scene(name));
+    StateHash hash;
+    for (int i = 0; i <= 60; ++i) hash.take(simulation->next());
+    const SunderWorld world = c_world(name, 1);
+    EXPECT_EQ(c_hash(world, 60), hash.hex()) << name;
+    EXPECT_EQ(sunder_world_destroy(world), SUNDER_OK);
+  }
+}
+
+TEST(CStates, AreThoseOfAWorldThatIsActedOn) {
+  World world = make_world(parse_scene("[scene]\ndescription = \"Nothing.\"\n", "nothing"));
+  Part part;
+  part.material = material_named(world.scene(), "brick");
+  part.polyhedron = make_box({-1, 0, -0.2}, {1, 2, 0.2});
+  part.anchored = 1;
+  const Asset asset(make_compound({part}));
+  BodyMotion motion;
+  motion.X_WR.position = {0.5, 0, 0};
+  const BodyKey wall = world.add(asset, motion);
+  world.set_user_data(wall, 3);
+  Shot shot;
+  shot.ball.radius_m = 0.2;
+  shot.ball.material = material_named(world.scene(), "steel");
+  shot.ball.center_W = {0.4, 1, 3};
+  shot.ball.velocity_W = {0, 0, -30};
+  world.shoot(shot);
+  const std::string expected = world_hash(world, 60);
+  EXPECT_GT(world.size(), 5u);
+
+  SunderWorld made{};
+  const SunderWorldDef def = sunder_default_world_def();
+  ASSERT_EQ(sunder_world_create(&def, &made), SUNDER_OK);
+  SunderPartDef c_part = sunder_default_part_def();
+  ASSERT_EQ(sunder_builtin_material("brick", &c_part.material), SUNDER_OK);
+  c_part.box_min = {-1, 0, -0.2};
+  c_part.box_max = {1, 2, 0.2};
+  c_part.anchored = true;
+  SunderAsset c_asset{};
+  ASSERT_EQ(sunder_asset_create_parts(&c_part, 1, &c_asset), SUNDER_OK);
+  SunderSolidDef solid = sunder_default_solid_def();
+  solid.motion.X_WR.position = {0.5, 0, 0};
+  solid.user_data = 3;
+  ASSERT_EQ(sunder_world_add_solid(made, c_asset, &solid, nullptr), SUNDER_OK);
+  SunderShotDef c_shot = sunder_default_shot_def();
+  c_shot.ball.radius_m = 0.2;
+  c_shot.ball.center_W = {0.4, 1, 3};
+  c_shot.ball.velocity_W = {0, 0, -30};
+  ASSERT_EQ(sunder_world_shoot(made, &c_shot), SUNDER_OK);
+  EXPECT_EQ(c_hash(made, 60), expected);
+  EXPECT_EQ(sunder_asset_destroy(c_asset), SUNDER_OK);
+  EXPECT_EQ(sunder_world_destroy(made), SUNDER_OK);
+}
+
+TEST(CThreads, RunWorldsAtOnceAndCallsForOneWorldOneAfterAnother) {
+  const SunderWorld alone = c_world("glass", 1);
+  const std::string expected = c_hash(alone, 30);
+  EXPECT_EQ(sunder_world_destroy(alone), SUNDER_OK);
+
+  const SunderWorld shared = c_world("glass", 1);
+  std::string hashes[2];
+  {
+    std::vector<std::jthread> threads;
+    for (std::string& hash : hashes) {
+      threads.emplace_back([&hash] {
+        const SunderWorld own = c_world("glass", 1);
+        hash = c_hash(own, 30);
+        EXPECT_EQ(sunder_world_destroy(own), SUNDER_OK);
+      });
+    }
+    for (int i = 0; i < 2; ++i) {
+      threads.emplace_back([shared] {
+        for (int step = 0; step < 15; ++step)
+          EXPECT_EQ(sunder_world_step(shared, kFrame_s), SUNDER_OK);
+        EXPECT_EQ(sunder_world_step(shared, 7), SUNDER_ERROR_ARGUMENT);
+        EXPECT_NE(std::string(sunder_last_error()).find("time_s is 7"), std::string::npos);
+      });
+    }
+  }
+  EXPECT_EQ(hashes[0], expected);
+  EXPECT_EQ(hashes[1], expected);
+  EXPECT_STREQ(sunder_last_error(), "") << "errors are those of a thread";
+  double time_s = 0;
+  EXPECT_EQ(sunder_world_time(shared, &time_s), SUNDER_OK);
+  EXPECT_NEAR(time_s, 0.5, 1e-9);
+  EXPECT_EQ(sunder_world_destroy(shared), SUNDER_OK);
+}
+
+TEST(CThreads, DestroyAWorldWhileAnotherThreadStepsIt) {
+  for (int round = 0; round < 5; ++round) {
+    const SunderWorld world = c_world("glass", 1);
+    std::jthread stepper([world] {
+      SunderResult result = SUNDER_OK;
+      while (result == SUNDER_OK) result = sunder_world_step(world, kFrame_s);
+      EXPECT_EQ(result, SUNDER_ERROR_HANDLE) << sunder_last_error();
+    });
+    while (true) {
+      double time_s = 0;
+      ASSERT_EQ(sunder_world_time(world, &time_s), SUNDER_OK);
+      if (time_s > 0.05) break;
+    }
+    EXPECT_EQ(sunder_world_destroy(world), SUNDER_OK);
+  }
+}
+
+}  // namespace
+}  // namespace sunder::scenes
