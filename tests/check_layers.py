@@ -23,7 +23,7 @@ LAYERS = {
                ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
     "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("report",), ("timing", "trade"),
-               ("app",)),
+               ("app",), ("api/python",)),
 }
 LAYER_OF = {str(Path(module, folder)): layer for module, layers in LAYERS.items()
             for layer, folders in enumerate(layers) for folder in folders}
@@ -55,6 +55,7 @@ THIRD_PARTY = [
     (r"(EGL|GL|GLES\d|KHR|stb)/.*", ("render/",)),
     (r"toml\+\+/.*", ("scenes/",)),
     (r"CLI/.*", ("scenes/app/",)),
+    (r"pybind11/.*", ("scenes/api/python/",)),
     (r"sunder/.*", ("tests/consumer/",)),  # the installed library
     (r"benchmark/.*", ("bench/",)),
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
