@@ -135,6 +135,10 @@ class Assets(unittest.TestCase):
         self.assertTrue(asset.anchored)
         self.assertAlmostEqual(asset.volume_m3, 2)
 
+    def test_of_parts_that_do_not_touch_have_islands(self):
+        asset = sunder.Asset.from_boxes([((0, 0, 0), (1, 1, 1)), ((2, 0, 0), (3, 1, 2))])
+        self.assertEqual([island.volume_m3 for island in asset.islands()], [1, 2])
+
     def test_of_triangles_with_a_wrong_index_raise(self):
         with self.assertRaisesRegex(sunder.InputError, "vertex 9"):
             sunder.Asset.from_triangles(np.eye(3), [[0, 1, 9]])

@@ -76,6 +76,15 @@ class Worlds(unittest.TestCase):
         self.assertFalse(world.contains(box))
         self.assertNotIn(box, world)
 
+    def test_drive_bodies(self):
+        world, box = box_world()
+        world.drive([box], velocity=(3, 0, 0), until_s=0.5)
+        world.run(0.4)
+        # The drive acts before the solve, which adds gravity for a step.
+        np.testing.assert_allclose(world.body(box).velocity, [3, -9.81 / 120, 0], atol=1e-6)
+        world.run(0.4)
+        self.assertLess(world.body(box).velocity[1], -1)
+
     def test_join_bodies(self):
         world, box = box_world()
         joint = world.add_joint("distance", box, None, at=(0, 5, 0), to=(0, 8, 0))

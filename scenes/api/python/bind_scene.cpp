@@ -250,6 +250,16 @@ void bind_assets(py::module_& module) {
             return std::pair(box.min, box.max);
           },
           "Lowest and highest corner of the bounding box.")
+      .def(
+          "islands",
+          [](const Asset& asset) {
+            std::vector<Asset> islands;
+            for (Compound& part : scenes::split_islands(asset.compound())) {
+              islands.emplace_back(std::move(part));
+            }
+            return islands;
+          },
+          "Returns the parts that do not touch each other, each as an asset.")
       .def("__repr__", [](const Asset& asset) {
         return "<Asset of " + std::to_string(asset.compound().convexes.size()) + " convexes>";
       });

@@ -1,6 +1,7 @@
 // Worlds, and what they answer.
 //
 // Read first: PythonWorld.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFrame_s = 1.0 / 60;
+constexpr double kFrameTolerance = 1e-6;  ///< Rounding of a number of frames.
 constexpr double kShortestRest_s = 1e-6;  ///< Shortest time that a world can advance by.
 
 BodyKey body_key(std::int64_t key) {
@@ -128,7 +130,7 @@ void run(const py::object& self, double duration_s, const py::object& on_frame) 
                      "; expected a finite time that is not negative");
   }
   auto& world = self.cast<PythonWorld&>();
-  const double frames = std::floor(duration_s / kFrame_s + kShortestRest_s);
+  const double frames = std::floor(duration_s / kFrame_s + kFrameTolerance);
   const double rest_s = duration_s - frames * kFrame_s;
   for (double frame = 0; frame < frames; ++frame) {
     world.step(kFrame_s);
@@ -407,7 +409,28 @@ void bind_creation(WorldClass& type) {
           py::arg("time_s") = 0.0,
           "Ignites a blast: an impulse per area on every face turned to the centre, or the wave of "
           "a "
-          "charge of tnt_kg on the ground, or in the air. cover: nearer bodies shield others.");
+          "charge of tnt_kg on the ground, or in the air. cover: nearer bodies shield others.")
+      .def(
+          "drive",
+          [](PythonWorld& self, const std::vector<std::int64_t>& bodies,
+             std::optional<Vec3> velocity, double force_N, std::optional<Vec3> angular_velocity,
+             double torque_Nm, double time_s, double until_s) {
+            Drive drive;
+            for (const std::int64_t body : bodies) drive.roots.push_back(body_key(body).value);
+            std::ranges::sort(drive.roots);
+            drive.velocity_W = velocity;
+            drive.force_N = force_N;
+            drive.angular_velocity_W = angular_velocity;
+            drive.torque_Nm = torque_Nm;
+            drive.time_s = time_s;
+            drive.until_s = until_s;
+            self.change().drive(drive);
+          },
+          py::arg("bodies"), py::arg("velocity") = py::none(), py::arg("force_N") = 1e6,
+          py::arg("angular_velocity") = py::none(), py::arg("torque_Nm") = 1e6,
+          py::arg("time_s") = 0.0, py::arg("until_s") = kInfinity,
+          "Holds bodies at a velocity by limited force, an angular velocity by limited torque, or "
+          "both, until a time, or until they break.");
 }
 
 void bind_actions(WorldClass& type) {

@@ -31,7 +31,7 @@ ELEMENT = re.compile(r"\b(float32|float64|uint8|uint32|uint64|bool)\b")
 
 def python_type(text, is_result):
     """Returns the type of a signature as a stub has it."""
-    text = text.replace("sunder._core.", "").replace("sunder::python::", "")
+    text = text.replace("sunder.", "")
     text = DTYPE.sub(lambda found: f"NDArray[np.{found[1]}]" if is_result else "ArrayLike", text)
     text = text.replace("numpy.ndarray", "NDArray[Any]").replace("os.PathLike", "Union[str, os.PathLike]")
     text = re.sub(r"\b(?:handle|object)\b", "Any", text)

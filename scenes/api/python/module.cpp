@@ -21,6 +21,9 @@ PYBIND11_MODULE(_core, module) {
   using namespace sunder::python;
   module.doc() = "The part of the package sunder that is compiled.";
   module.attr("__version__") = SUNDER_VERSION;
+  // Classes are known by the name of the package, which has all of them.
+  const pybind11::object own_name = module.attr("__name__");
+  module.attr("__name__") = "sunder";
   bind_errors(module);
   bind_materials(module);
   bind_assets(module);
@@ -33,4 +36,5 @@ PYBIND11_MODULE(_core, module) {
   module.def("set_threads", &sunder::set_threads, py::arg("count"),
              "Sets the number of threads of all worlds that were made with threads=0, and of "
              "loading and fracture. 0: one per processor.");
+  module.attr("__name__") = own_name;
 }

@@ -29,7 +29,3 @@ def _scenes_folder():
 
 
 _core._set_scenes_folder(_scenes_folder())
-for _name in __all__:
-    _public = getattr(_core, _name)
-    if isinstance(_public, type):
-        _public.__module__ = "sunder"

@@ -57,6 +57,8 @@ class Asset:
     @property
     def bounds(self) -> Tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest and highest corner of the bounding box."""
+    def islands(self) -> List[Asset]:
+        """Returns the parts that do not touch each other, each as an asset."""
 
 
 class Bodies:
@@ -753,6 +755,9 @@ class World:
     def blast(self, center: ArrayLike, radius_m: float = 4.0, impulse_Ns_m2: float = 1000.0, tnt_kg: Optional[float] = None, in_air: bool = False, cover: bool = False, time_s: float = 0.0) -> None:
         """Ignites a blast: an impulse per area on every face turned to the centre, or the wave of
         a charge of tnt_kg on the ground, or in the air. cover: nearer bodies shield others."""
+    def drive(self, bodies: List[int], velocity: Optional[ArrayLike] = None, force_N: float = 1000000.0, angular_velocity: Optional[ArrayLike] = None, torque_Nm: float = 1000000.0, time_s: float = 0.0, until_s: float = ...) -> None:
+        """Holds bodies at a velocity by limited force, an angular velocity by limited torque, or
+        both, until a time, or until they break."""
     def remove(self, body: int) -> None:
         """Removes a body."""
     def remove_joint(self, joint: int) -> None:
