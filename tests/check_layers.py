@@ -22,7 +22,7 @@ LAYERS = {
                ("rigid/joint",), ("rigid/contact/kernels",), ("rigid/contact",),
                ("rigid", "planar", "particles")),
     "render": (("gl", "shaders"), ("image",), ("passes",), ("",)),
-    "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("report", "api"),
+    "scenes": (("sculpture",), ("file",), ("structures",), ("",), ("report", "api", "api/python"),
                ("timing", "trade"), ("app",)),
 }
 LAYER_OF = {str(Path(module, folder)): layer for module, layers in LAYERS.items()
@@ -56,6 +56,7 @@ THIRD_PARTY = [
     (r"(EGL|GL|GLES\d|KHR|stb)/.*", ("render/",)),
     (r"toml\+\+/.*", ("scenes/",)),
     (r"CLI/.*", ("scenes/app/",)),
+    (r"pybind11/.*", ("scenes/api/python/",)),
     (r"sunder/.*", ("tests/consumer/", "examples/")),  # the installed library
     (r"benchmark/.*", ("bench/",)),
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),

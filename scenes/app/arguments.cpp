@@ -27,70 +27,6 @@ std::vector<double> numbers(std::string_view text, char between) {
   return found;
 }
 
-/// A pattern "kind:sizes" while it is parsed.
-struct Spec {
-  const std::string& text;
-  std::vector<double> sizes;
-
-  [[noreturn]] void refuse(const std::string& expected) const {
-    throw InputError("--pattern " + text + ": expected " + expected);
-  }
-  void need(bool right_count) const {
-    if (!right_count) refuse(kPatternHelp);
-  }
-  double real(std::size_t i, double low, double high, const char* name,
-              bool is_whole = false) const {
-    if (sizes[i] < low || sizes[i] > high || (is_whole && sizes[i] != std::floor(sizes[i]))) {
-      refuse(std::string(name) + " to be a " + (is_whole ? "whole " : "") + "number from " +
-             scenes::format(low) + " to " + scenes::format(high));
-    }
-    return sizes[i];
-  }
-  int whole(std::size_t i, double low, double high, const char* name) const {
-    return static_cast<int>(real(i, low, high, name, true));
-  }
-};
-
-PatternSpec parse_built_in(const std::string& text, const std::string& kind) {
-  using Kind = PatternSpec::Kind;
-  const Spec spec{
-      text, numbers(std::string_view(text).substr(kind.size() + 1), kind == "web" ? 'x' : ',')};
-  const std::size_t count = spec.sizes.size();
-  PatternSpec pattern;
-  if (kind == "voronoi") {
-    spec.need(count == 1 || count == 2);
-    pattern.kind = Kind::kVoronoi;
-    pattern.cells = spec.whole(0, 1, 5000, "N");
-    if (count == 2) pattern.falloff = spec.real(1, 1, 10, "FALLOFF");
-  } else if (kind == "web") {
-    spec.need(count == 2);
-    pattern.kind = Kind::kWeb;
-    pattern.rings = spec.whole(0, 1, 100, "RINGS");
-    pattern.spokes = spec.whole(1, 3, 200, "SPOKES");
-  } else if (kind == "radial") {
-    spec.need(count == 1);
-    pattern.kind = Kind::kRadial;
-    pattern.cells = spec.whole(0, 3, 200, "N");
-  } else if (kind == "brick") {
-    spec.need(count == 3);
-    pattern.kind = Kind::kBrick;
-    for (std::size_t i = 0; i < 3; ++i) {
-      pattern.brick_m[static_cast<Eigen::Index>(i)] = spec.real(i, 1e-9, 1e9, "X, Y and Z");
-    }
-  } else if (kind == "slabs") {
-    spec.need(count == 1);
-    pattern.kind = Kind::kSlabs;
-    pattern.cells = spec.whole(0, 1, 1000, "N");
-  } else if (kind == "grid") {
-    spec.need(count == 1);
-    pattern.kind = Kind::kGrid;
-    pattern.cells = spec.whole(0, 1, 30, "N");
-  } else {
-    spec.refuse(kPatternHelp);
-  }
-  return pattern;
-}
-
 bool is_none(const std::string& path) { return path.empty() || path == "-"; }
 
 /// Returns true if writing the output would overwrite `file`, or delete it with its folder.
@@ -145,20 +81,6 @@ void parse_size(const std::string& text, render::RenderOptions& options) {
     throw InputError("--size " + text +
                      ": expected WIDTHxHEIGHT, each from 16 to 8192, and even for a video");
   }
-}
-
-PatternSpec parse_pattern(const std::string& text) {
-  if (text.ends_with(".obj") || std::filesystem::is_regular_file(text)) {
-    PatternSpec pattern;
-    pattern.kind = PatternSpec::Kind::kFile;
-    pattern.file = text;
-    return pattern;
-  }
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) {
-    throw InputError("--pattern " + text + ": expected " + kPatternHelp);
-  }
-  return parse_built_in(text, text.substr(0, colon));
 }
 
 }  // namespace sunder::app

@@ -1,11 +1,10 @@
-// Parses and checks arguments of several numbers, patterns and files.
+// Parses and checks arguments of several numbers and files.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "engine/base/types.h"
-#include "engine/model/material.h"
 #include "render/sinks.h"
 
 namespace sunder::app {
@@ -25,12 +24,5 @@ struct NamedFile {
 /// Throws InputError if an output would overwrite an input, by whatever path, or two outputs are
 /// one file. Empty paths and "-" are ignored, as are devices and pipes as outputs.
 void check_files(const std::vector<NamedFile>& writes, const std::vector<NamedFile>& reads);
-
-/// The syntax of parse_pattern().
-inline constexpr const char* kPatternHelp =
-    "voronoi:N[,FALLOFF] | web:RINGSxSPOKES | radial:N | brick:X,Y,Z | slabs:N | grid:N (N^3 "
-    "cells) | an .obj file of convex cells, one per group";
-/// Parses the pattern of --pattern. Throws InputError with the syntax for anything else.
-PatternSpec parse_pattern(const std::string& text);
 
 }  // namespace sunder::app

@@ -9,6 +9,7 @@
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/subcommand.h"
+#include "scenes/solid_break.h"
 
 namespace sunder::app {
 namespace {
@@ -255,7 +256,7 @@ void add_fracture(CLI::App& program, Command& chosen) {
   command.app
       ->add_option("MESH", options.mesh, std::string(kMeshHelp) + "; or X.case, a file of a break")
       ->required();
-  command.app->add_option("--pattern", options.pattern, kPatternHelp)->type_name("SPEC");
+  command.app->add_option("--pattern", options.pattern, scenes::kPatternHelp)->type_name("SPEC");
   command.app
       ->add_option("--at", options.at,
                    "Position of the impact; the middle of the bounding box by default")

@@ -1,39 +1,31 @@
 // sunder fracture: breaks one solid once, and measures all quantities that a break must conserve.
 //
 // Read first: fracture_mesh(), then carry_out().
-#include "fracture/fracture.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "engine/base/check.h"
-#include "engine/base/parallel.h"
 #include "engine/base/trace.h"
 #include "engine/io/figures.h"
 #include "engine/io/statistics.h"
-#include "fracture/adjacency/compound_builder.h"
 #include "fracture/check/audit.h"
 #include "fracture/check/case_file.h"
-#include "fracture/pattern_breaker.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/mesh_report.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/file/text_file.h"
+#include "scenes/solid_break.h"
 
 namespace sunder::app {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::uint64_t kEvent = 1;
-/// Smallest volume of a brick of the pattern, as a fraction of the largest convex's volume.
-constexpr double kMinBrickFraction = 1e-5;
 /// A break is timed at most kMaxTimings times, and no more after kEnoughTime_ms in all.
 constexpr int kMaxTimings = 20;
 constexpr double kEnoughTime_ms = 200;
@@ -48,94 +40,15 @@ struct Broken {
   double total_ms = 0;
 };
 
-/// Returns the stretch of a pattern that fits its extents to a solid that extends up to `reach`
-/// from the impact along each axis. The pattern's axes are those of `rotation`.
-Mat3 stretch_onto(const Vec3& reach, const Quat& rotation) {
-  const Vec3 half_P = (rotation.conjugate() * reach).cwiseAbs();
-  return Mat3((half_P / reach.norm()).asDiagonal());
-}
-
-/// Throws InputError for bricks so small that all their parts would be welded again.
-void check_bricks(const FractureOptions& options, const Vec3& brick_m, const Compound& compound) {
-  double largest_m3 = 0;
-  for (const ConvexPtr& convex : compound.convexes) {
-    largest_m3 = std::max(largest_m3, convex->solid.volume_m3);
-  }
-  if (brick_m.prod() >= kMinBrickFraction * largest_m3) return;
-  throw InputError("--pattern " + options.pattern + ": the bricks are too small for this solid; " +
-                   "give larger ones");
-}
-
-/// Returns the break that the options describe. Its direction is towards the middle of the bounding
-/// box, or down if the impact is there.
+/// Returns the break that the options describe.
 BreakCommand command_of(const FractureOptions& options, const Compound& compound) {
-  const Box box = bounds(compound);
-  Material material;
-  material.pattern = parse_pattern(options.pattern);
-  material.impact_radius_m = options.radius_m.value_or(kInfinity);
-  StructureImpact hit;
-  hit.point_R = options.at.empty() ? box.center() : parse_point("--at", options.at);
-  const Vec3 inward = box.center() - hit.point_R;
-  hit.direction_R =
-      inward.norm() > 1e-9 * box.extent().norm() ? inward.normalized() : Vec3(-Vec3::UnitY());
-  double nearest = kInfinity;
-  std::size_t nearest_convex = 0;
-  for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    const double distance = (compound.convexes[c]->solid.centroid - hit.point_R).norm();
-    if (distance < nearest) nearest_convex = c;
-    nearest = std::min(nearest, distance);
-  }
-  hit.convex = ConvexSlot(nearest_convex);
-  const Vec3 reach =
-      (box.max - hit.point_R).cwiseAbs().cwiseMax((box.min - hit.point_R).cwiseAbs());
-  if (material.pattern.kind == PatternSpec::Kind::kBrick) {
-    check_bricks(options, material.pattern.brick_m, compound);
-  }
-  const auto breaker = fracture::make_pattern_breaker();
-  BreakCommand command = breaker->command(*compound.convexes[nearest_convex],
-                                          std::span(&material, 1), hit, kEvent, options.seed);
-  using Kind = PatternSpec::Kind;
-  const Kind kind = material.pattern.kind;
-  if (!options.radius_m &&
-      (kind == Kind::kVoronoi || kind == Kind::kGrid || kind == Kind::kSlabs)) {
-    if (kind == Kind::kVoronoi) command.X_RP.rotation = Quat::Identity();
-    command.stretch_P = stretch_onto(reach, command.X_RP.rotation);
-  }
-  return command;
-}
-
-/// Computes the break of all islands of a solid by one event. Does not change the structures.
-std::vector<BreakEdit> break_once(const std::vector<Structure>& structures,
-                                  const fracture::PreparedBreak& ready,
-                                  const BreakCommand& command) {
-  constexpr std::size_t kManyParts = 16;
-  std::vector<BreakEdit> edits(structures.size());
-  const auto break_part = [&](std::size_t i) {
-    edits[i] = fracture::break_structure(structures[i], *ready.pattern, ready.placement,
-                                         ready.sphere, command.event);
-  };
-  if (structures.size() >= kManyParts) {  // many are small: in parallel, each by one thread
-    for_chunks(structures.size(), 1,
-               [&](std::size_t i, std::size_t, std::size_t) { break_part(i); });
-  } else {
-    for (std::size_t i = 0; i < structures.size(); ++i) break_part(i);
-  }
-  return edits;
-}
-
-/// Applies the break of one island to its structure, and adds the result to the plan.
-void collect(Structure& structure, BreakEdit edit, BreakPlan& plan) {
-  BreakPlan& loose = edit.loose;
-  plan.clip_ms += loose.clip_ms;
-  plan.islands_ms += loose.islands_ms;
-  plan.failed += loose.failed;
-  plan.failed_m3 += loose.failed_m3;
-  plan.welded += loose.welded;
-  plan.debris_volume_m3 += loose.debris_volume_m3;
-  plan.untouched += edit.changed ? loose.untouched : structure.size();
-  if (edit.changed) structure.apply(edit);
-  if (structure.size() > 0) plan.pieces.push_back(structure.compound());
-  std::move(loose.pieces.begin(), loose.pieces.end(), std::back_inserter(plan.pieces));
+  scenes::SolidBreak solid;
+  solid.name = "--pattern " + options.pattern;
+  solid.pattern = scenes::parse_pattern(options.pattern, "--pattern");
+  if (!options.at.empty()) solid.at_R = parse_point("--at", options.at);
+  solid.radius_m = options.radius_m;
+  solid.seed = options.seed;
+  return scenes::break_command(compound, solid);
 }
 
 /// Estimated fractions of all work after preparation of the mesh, and after the break.
@@ -146,10 +59,7 @@ Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProg
   progress("breaking", kMeshShare);
   Broken broken;
   Stopwatch watch;
-  std::vector<Structure> structures;
-  for (const Compound& part : fracture::split_islands(compound)) structures.emplace_back(part);
-  fracture::PatternLibrary library;
-  const fracture::PreparedBreak ready = fracture::prepare_break(command, bounds(compound), library);
+  scenes::PreparedSolidBreak ready(compound, command);
   broken.prepare_ms = watch.ms();
 
   std::vector<BreakEdit> edits;
@@ -157,14 +67,12 @@ Broken carry_out(const Compound& compound, const BreakCommand& command, WorkProg
   broken.total_ms = kInfinity;
   for (int time = 0; time < kMaxTimings && (time < 2 || all.ms() < kEnoughTime_ms); ++time) {
     watch.lap_ms();
-    std::vector<BreakEdit> again = break_once(structures, ready, command);
+    std::vector<BreakEdit> again = ready.plan();
     if (watch.ms() >= broken.total_ms) continue;
     broken.total_ms = watch.ms();
     edits = std::move(again);
   }
-  for (std::size_t i = 0; i < edits.size(); ++i) {
-    collect(structures[i], std::move(edits[i]), broken.plan);
-  }
+  broken.plan = std::move(ready).apply(std::move(edits));
   progress("measuring", kBrokenShare);
   broken.double_counted = fracture::double_counted_volume(compound);
   broken.before = fracture::audit(std::span(&compound, 1));
@@ -238,9 +146,10 @@ fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOp
                             Attempt& attempt, WorkProgress& progress) {
   if (!options.mesh.ends_with(".case")) {
     if (options.pattern.empty()) {
-      throw InputError("--pattern is missing: " + std::string(kPatternHelp));
+      throw InputError("--pattern is missing: " + std::string(scenes::kPatternHelp));
     }
-    parse_pattern(options.pattern);  // finds errors before work that may take long
+    scenes::parse_pattern(options.pattern,
+                          "--pattern");  // finds errors before work that may take long
     scenes::MeshOptions mesh = solid_of;
     mesh.appearances = &attempt.appearances;
     mesh.progress = [&](const char* step, double share) { progress(step, kMeshShare * share); };

@@ -1,28 +1,12 @@
 #include "scenes/file/make_compound.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "fracture/adjacency/compound_builder.h"
 #include "scenes/file/mesh_solid.h"
 
 namespace sunder::scenes {
-namespace {
-
-/// Replaces the materials of all convexes, which are indices into `materials`, by these.
-void set_materials(Compound& compound, const std::vector<MaterialIndex>& materials) {
-  const auto change = [&](ConvexPtr& convex) {
-    const auto changed = std::make_shared<Convex>(*convex);
-    changed->material = materials[convex->material.value];
-    convex = changed;
-  };
-  for (ConvexPtr& convex : compound.convexes) change(convex);
-  for (Ghost& ghost : compound.ghosts) change(ghost.convex);
-}
-
-}  // namespace
-
 Compound make_compound(std::vector<Part> parts) {
   return fracture::make_compound(std::move(parts));
 }

@@ -148,14 +148,12 @@ std::string missing_warning(const std::string& file, const std::vector<std::stri
          "; put them into the folder of the mesh, or export it as .glb with textures";
 }
 
-/// Reads, repairs and decomposes a file or a built-in mesh, or loads the result from the cache.
-MeshSolid decomposed(const std::string& file, const MeshOptions& options) {
-  fracture::VacdOptions vacd_of = vacd_options(options);
+/// Repairs and decomposes a mesh, or loads the result from the cache.
+MeshSolid decomposed(RawMesh raw, const std::string& file, fracture::VacdOptions vacd_of,
+                     const MeshOptions& options) {
   if (options.progress) {
-    options.progress("reading", 0);
     vacd_of.progress = [&](double share) { options.progress("decomposing", 0.4 + 0.6 * share); };
   }
-  RawMesh raw = make_raw_mesh(file);
   const std::string warning = missing_warning(file, raw.missing_files);
   scale_mesh(raw, options, vacd_of);
   if (!options.materials.empty())
@@ -262,10 +260,29 @@ MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
     }
     solid = as_mesh_solid(mesh, fracture::make_solid(mesh));
   } else {
-    solid = decomposed(mesh, options);
+    fracture::VacdOptions vacd = vacd_options(options);
+    if (options.progress) options.progress("reading", 0);
+    solid = decomposed(make_raw_mesh(mesh), mesh, std::move(vacd), options);
   }
   solid.prepare_ms = watch.ms();
   return solid;
+}
+
+MeshSolid make_mesh_solid(RawMesh mesh, const std::string& name, const MeshOptions& options) {
+  const Stopwatch watch;
+  MeshSolid solid = decomposed(std::move(mesh), name, vacd_options(options), options);
+  solid.prepare_ms = watch.ms();
+  return solid;
+}
+
+void set_materials(Compound& compound, const std::vector<MaterialIndex>& materials) {
+  const auto change = [&](ConvexPtr& convex) {
+    const auto changed = std::make_shared<Convex>(*convex);
+    changed->material = materials[convex->material.value];
+    convex = changed;
+  };
+  for (ConvexPtr& convex : compound.convexes) change(convex);
+  for (Ghost& ghost : compound.ghosts) change(ghost.convex);
 }
 
 }  // namespace sunder::scenes

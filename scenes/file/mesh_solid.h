@@ -34,6 +34,10 @@ struct MeshSolid {
 /// Makes the compound of a file, a built-in mesh or a built-in solid. Throws InputError if `mesh`
 /// names none of these, or an option cannot be met.
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options);
+/// Makes the compound of a mesh in memory, which `name` stands for in messages. Throws InputError.
+MeshSolid make_mesh_solid(RawMesh mesh, const std::string& name, const MeshOptions& options);
+/// Replaces the materials of all convexes, which are indices into `materials`, by these.
+void set_materials(Compound& compound, const std::vector<MaterialIndex>& materials);
 /// Wraps an existing compound, with the vertices and faces of its convexes.
 MeshSolid as_mesh_solid(const std::string& name, Compound compound);
 /// Returns true if two appearances are equal; pictures are compared by their bytes.
