@@ -16,17 +16,18 @@
 #include "engine/base/types.h"                  // Vec3, Quat, Pose, Box
 #include "engine/geometry/convex_polyhedron.h"  // make_box(), make_prism(), make_hull()
 #include "engine/io/recording/recording.h"      // RecordingWriter, RecordingReader
+#include "engine/io/state_hash.h"               // hash_state()
 #include "engine/io/statistics.h"               // Statistics, StateHash
-#include "engine/model/compound.h"              // Part, Compound
-#include "engine/model/frame.h"                 // Frame, FrameSource, FrameSink, pump()
 #include "engine/model/collision_filter.h"
+#include "engine/model/compound.h"  // Part, Compound
+#include "engine/model/frame.h"     // Frame, FrameSource, FrameSink, pump()
 #include "engine/model/joint.h"
 #include "engine/model/material.h"
 #include "engine/model/scene.h"
+#include "engine/world/world.h"         // World, Asset
 #include "render/image/image.h"         // Image, write_png()
 #include "render/renderer.h"            // Renderer
 #include "render/sinks.h"               // make_picture_sink()
 #include "scenes/file/make_compound.h"  // make_compound() of parts, or of a mesh
 #include "scenes/load.h"                // load_scene(), builtin_materials()
-#include "engine/world/world.h"  // World, Asset
 #include "scenes/make_simulation.h"
