@@ -15,7 +15,7 @@
 
 #include "scenes/api/sunder_c.h"
 
-enum { kWorlds = 3, kAssets = 6, kKeys = 32, kMostBodies = 250, kRoom = 64 };
+enum { kWorlds = 3, kAssets = 6, kKeys = 32, kMostBodies = 120, kRoom = 64 };
 
 static uint64_t state;
 static SunderWorld worlds[kWorlds];
@@ -325,7 +325,7 @@ static bool act(SunderWorld world) {
     case 2:
       return done(sunder_world_release(world, body));
     case 3:
-      return done(sunder_world_apply_impulse(world, body, vector(1e4), place()));
+      return done(sunder_world_apply_impulse(world, body, vector(300), place()));
     case 4:
       return done(sunder_world_break_at(world, body, place(), vector(1), number(0, 1e5),
                                         one_in(2) ? &pattern : NULL));
