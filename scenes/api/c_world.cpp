@@ -213,6 +213,16 @@ SunderResult sunder_world_create(const SunderWorldDef* def, SunderWorld* world) 
   });
 }
 
+SunderResult sunder_world_copy(SunderWorld world, SunderWorld* copy) {
+  return ask_world("sunder_world_copy", world, [&](WorldEntry& entry) {
+    need_pointer(copy, "copy");
+    const WorldPtr made =
+        std::allocate_shared<WorldEntry>(HookAllocator<WorldEntry>(), entry.world.copy());
+    made->materials = entry.materials;
+    *copy = add_world(made);
+  });
+}
+
 SunderResult sunder_world_destroy(SunderWorld world) {
   return guard("sunder_world_destroy", SUNDER_ERROR_ARGUMENT, [&] {
     const WorldPtr entry = take_world(world);

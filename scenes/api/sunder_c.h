@@ -174,6 +174,9 @@ SUNDER_API SunderWorldDef sunder_default_world_def(void);
 SUNDER_API SunderResult sunder_world_create(const SunderWorldDef* def, SunderWorld* world);
 /// Destroys a world with all that is in it; pointers that it returned become invalid.
 SUNDER_API SunderResult sunder_world_destroy(SunderWorld world);
+/// Makes a world in the same state, which goes on with the same bits: to roll back, keep a copy,
+/// and go on with it. What does not change is shared. SUNDER_ERROR_ARGUMENT for a planar scene.
+SUNDER_API SunderResult sunder_world_copy(SunderWorld world, SunderWorld* copy);
 /// Returns true if the world exists.
 SUNDER_API bool sunder_world_is_valid(SunderWorld world);
 

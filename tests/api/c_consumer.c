@@ -392,6 +392,7 @@ static void refusals(void) {
   REFUSED(sunder_world_step(beyond, 0.01), HANDLE, "world does not exist");
   EXPECT(!sunder_world_is_valid(null_world) && !sunder_world_is_valid(foreign));
 
+  REFUSED(sunder_world_copy(gone, &world), HANDLE, "sunder_world_copy(): world does not exist");
   REFUSED(sunder_world_create(NULL, &world), ARGUMENT, "def is null");
   REFUSED(sunder_world_create(&world_def, NULL), ARGUMENT, "world is null");
   world_def.threads = -1;

@@ -104,6 +104,23 @@ TEST(CStates, AreThoseOfAWorldThatIsActedOn) {
   EXPECT_EQ(sunder_world_destroy(made), SUNDER_OK);
 }
 
+TEST(CStates, OfACopyGoOnWithTheSameBits) {
+  const SunderWorld world = c_world("glass", 1);
+  SunderMaterial stone{}, added{};
+  ASSERT_EQ(sunder_world_material(world, "stone", &stone), SUNDER_OK);
+  SunderMaterialDef def;
+  ASSERT_EQ(sunder_world_material_def(world, stone, &def), SUNDER_OK);
+  ASSERT_EQ(sunder_world_add_material(world, &def, &added), SUNDER_OK);
+  c_hash(world, 20);
+  SunderWorld copy{};
+  ASSERT_EQ(sunder_world_copy(world, &copy), SUNDER_OK) << sunder_last_error();
+  const std::string expected = c_hash(world, 20);
+  EXPECT_EQ(sunder_world_destroy(world), SUNDER_OK);
+  EXPECT_EQ(c_hash(copy, 20), expected);
+  EXPECT_EQ(sunder_world_material_def(copy, added, &def), SUNDER_OK);
+  EXPECT_EQ(sunder_world_destroy(copy), SUNDER_OK);
+}
+
 TEST(CThreads, RunWorldsAtOnceAndCallsForOneWorldOneAfterAnother) {
   const SunderWorld alone = c_world("glass", 1);
   const std::string expected = c_hash(alone, 30);

@@ -464,12 +464,22 @@ static void draw(SunderWorld world) {
   done(sunder_world_mesh(world, below(frame.mesh_count + 2), &mesh));
 }
 
+static void copy_world(void) {
+  const uint32_t at = below(kWorlds);
+  SunderWorld copy;
+  const SunderWorld world = any_world();
+  if (!done(sunder_world_copy(world, one_in(20) ? NULL : &copy))) return;
+  if (hash_of(copy) != hash_of(world)) fail("a copy in another state");
+  sunder_world_destroy(worlds[at]);
+  worlds[at] = copy;
+}
+
 // Calls one function, or a few.
 static void call(void) {
   const SunderWorld world = any_world();
   const uint32_t which = below(100);
   if (which < 1)
-    make_world();
+    one_in(3) ? copy_world() : make_world();
   else if (which < 3)
     make_asset();
   else if (which < 10)
