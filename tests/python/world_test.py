@@ -172,6 +172,14 @@ class Worlds(unittest.TestCase):
         with self.assertRaises(ZeroDivisionError):
             world.cast((0, 10, 0), (0, -1, 0), accepts=lambda key: 1 / 0)
 
+    def test_cannot_change_during_queries(self):
+        world, box = box_world()
+        ray = ((0, 10, 0), (0, -1, 0))
+        self.assertEqual(world.cast(*ray, accepts=lambda key: world.body(key).name == "box").body, box)
+        for change in (lambda key: world.remove(key), lambda key: world.step(), lambda key: world.frame()):
+            self.assertRaisesRegex(RuntimeError, "during a query", world.cast, *ray, accepts=change)
+        world.remove(box)
+
     def test_list_contacts(self):
         world, box = box_world()
         world.set_motion(box, origin=(0, 0.5, 0))
