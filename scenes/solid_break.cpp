@@ -13,6 +13,7 @@
 #include "engine/base/parallel.h"
 #include "fracture/adjacency/compound_builder.h"
 #include "fracture/fracture.h"
+#include "fracture/vacd/vacd.h"
 #include "scenes/file/keys.h"
 
 namespace sunder::scenes {
@@ -230,6 +231,15 @@ BreakPlan PreparedSolidBreak::apply(std::vector<BreakEdit> edits) && {
   BreakPlan plan;
   for (std::size_t i = 0; i < edits.size(); ++i) collect(structures_[i], std::move(edits[i]), plan);
   return plan;
+}
+
+std::optional<std::uint32_t> NodeRetries::next(double failed_fraction) {
+  constexpr double kMaxFailedFraction = 1e-4;  // of the volume
+  constexpr int kMaxRetries = 2;
+  if (failed_fraction <= kMaxFailedFraction || retries_ == kMaxRetries) return std::nullopt;
+  ++retries_;
+  nodes_ = std::min<std::size_t>(2 * nodes_, fracture::kMostNodes);
+  return static_cast<std::uint32_t>(nodes_);
 }
 
 }  // namespace sunder::scenes

@@ -1,6 +1,7 @@
 // Breaks one solid once by a pattern, as `sunder fracture` does, without a world.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -48,6 +49,21 @@ class PreparedSolidBreak {
   std::vector<Structure> structures_;
   fracture::PreparedBreak ready_;
   std::uint64_t event_ = 1;
+};
+
+/// Decides if a mesh is decomposed again with more nodes, as less volume is left whole by a break
+/// if the convexes are smaller.
+class NodeRetries {
+ public:
+  /// `convexes` is the number of convexes of the first decomposition.
+  explicit NodeRetries(std::size_t convexes) : nodes_(convexes) {}
+  /// Returns the number of nodes of the next decomposition; none if the fraction of the volume that
+  /// was left whole is small enough, or after two retries.
+  std::optional<std::uint32_t> next(double failed_fraction);
+
+ private:
+  std::size_t nodes_;
+  int retries_ = 0;
 };
 
 }  // namespace sunder::scenes

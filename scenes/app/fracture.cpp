@@ -177,18 +177,16 @@ Attempt attempt_with(const FractureOptions& options, const scenes::MeshOptions& 
 /// Breaks the solid. If too much of a mesh is left whole, decomposes it again with more nodes, as
 /// less volume fails with a smaller convex. Returns the attempt that leaves the least volume whole.
 Attempt break_with_retries(const FractureOptions& options, WorkProgress& progress) {
-  constexpr double kMaxFailedFraction = 1e-4;  // of the volume
-  constexpr int kMaxRetries = 2;
   Attempt best = attempt_with(options, options.solid, progress);
   // Nodes from a file and a given number of convexes are not changed.
   const bool may_have_more = best.solid.vacd && options.solid.convexes == 0 &&
                              scenes::vacd_options(options.solid).nodes.empty();
-  std::size_t nodes = best.solid.compound.convexes.size();
-  for (int time = 0;
-       time < kMaxRetries && may_have_more && best.failed_fraction() > kMaxFailedFraction; ++time) {
-    nodes = std::min<std::size_t>(2 * nodes, fracture::kMostNodes);
+  scenes::NodeRetries retries(best.solid.compound.convexes.size());
+  while (may_have_more) {
+    const std::optional<std::uint32_t> nodes = retries.next(best.failed_fraction());
+    if (!nodes) break;
     scenes::MeshOptions more = options.solid;
-    more.nodes = std::to_string(nodes);
+    more.nodes = std::to_string(*nodes);
     Attempt next = attempt_with(options, more, progress);
     if (next.broken.plan.failed_m3 < best.broken.plan.failed_m3) best = std::move(next);
   }

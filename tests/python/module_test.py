@@ -42,7 +42,10 @@ class Scenes(unittest.TestCase):
     def test_are_changed_by_preset_and_values(self):
         fine = sunder.load_scene("stack", preset="accurate")
         self.assertNotEqual(fine.accuracy.substeps, sunder.load_scene("stack").accuracy.substeps)
-        scene = sunder.parse_scene(SHOT, set={"scene.duration_s": 2.5})
+        scene = sunder.parse_scene(SHOT, set={"scene.duration_s": 2.5, "scene.gravity": (0, -3, 0),
+                                              "script.enabled": False, "limits.bodies": 50})
+        np.testing.assert_array_equal(scene.gravity, [0, -3, 0])
+        self.assertEqual(scene.limits.bodies, 50)
         self.assertEqual(scene.duration_s, 2.5)
         self.assertEqual(scene.description, "A steel ball breaks a pane.")
 

@@ -7,6 +7,7 @@
 #include "engine/io/statistics.h"
 #include "scenes/api/python/bindings.h"
 #include "scenes/file/make_compound.h"
+#include "scenes/file/mesh_solid.h"
 #include "scenes/solid_break.h"
 
 namespace sunder::python {
@@ -69,12 +70,42 @@ scenes::SolidBreak break_of(const Material& material, double energy_J) {
   return options;
 }
 
-std::vector<Piece> broken(const Compound& compound, const scenes::SolidBreak& options,
-                          std::string& warning) {
+/// The pieces of a solid, and what the break left whole.
+struct Broken {
+  BreakPlan plan;
+  double volume_m3 = 0;
+
+  double failed_fraction() const { return plan.failed_m3 / volume_m3; }
+};
+
+Broken broken(const Compound& compound, const scenes::SolidBreak& options) {
   scenes::PreparedSolidBreak ready(compound, scenes::break_command(compound, options));
-  BreakPlan plan = std::move(ready).apply(ready.plan());
+  return {std::move(ready).apply(ready.plan()), volume(compound)};
+}
+
+/// Makes a compound of the mesh that a text names, and breaks it; with more nodes, if too much of
+/// the mesh is left whole.
+Broken broken_mesh(const std::string& mesh, const scenes::SolidBreak& options) {
+  const MaterialIndex material(std::size_t{0});
+  const Compound first = scenes::make_compound(mesh, material);
+  Broken best = broken(first, options);
+  scenes::NodeRetries retries(first.convexes.size());
+  while (!scenes::is_built_in_solid(mesh)) {
+    const std::optional<std::uint32_t> nodes = retries.next(best.failed_fraction());
+    if (!nodes) break;
+    scenes::MeshOptions more;
+    more.nodes = std::to_string(*nodes);
+    Broken next = broken(scenes::make_compound(mesh, material, more), options);
+    if (next.plan.failed_m3 < best.plan.failed_m3) best = std::move(next);
+  }
+  return best;
+}
+
+/// Returns the pieces with their surfaces. Sets `warning` if the break was not perfect.
+std::vector<Piece> pieces_of(Broken broken, std::string& warning) {
+  BreakPlan& plan = broken.plan;
   if (plan.failed > 0) {
-    warning = uncut_convexes_warning(plan.failed, plan.failed_m3, volume(compound)) +
+    warning = uncut_convexes_warning(plan.failed, plan.failed_m3, broken.volume_m3) +
               "; an asset with more nodes may help";
   }
   const Model model = make_model(plan.pieces, {}, 0);
@@ -94,14 +125,6 @@ std::vector<Piece> broken(const Compound& compound, const scenes::SolidBreak& op
                " pieces, whose surfaces would be open without them";
   }
   return pieces;
-}
-
-/// Returns an asset, or makes it of the mesh that a text names.
-Asset asset_of(const std::variant<std::filesystem::path, Asset>& solid) {
-  if (const auto* asset = std::get_if<Asset>(&solid)) return *asset;
-  const py::gil_scoped_release release;
-  return Asset(scenes::make_compound(std::get<std::filesystem::path>(solid).string(),
-                                     MaterialIndex(std::size_t{0})));
 }
 
 std::vector<Piece> fracture(const std::variant<std::filesystem::path, Asset>& solid,
@@ -127,9 +150,13 @@ std::vector<Piece> fracture(const std::variant<std::filesystem::path, Asset>& so
   std::string warning;
   std::vector<Piece> pieces;
   {
-    const Compound compound = asset_of(solid).compound();
     const py::gil_scoped_release release;
-    pieces = broken(compound, options, warning);
+    if (const auto* asset = std::get_if<Asset>(&solid)) {
+      pieces = pieces_of(broken(asset->compound(), options), warning);
+    } else {
+      const std::string mesh = std::get<std::filesystem::path>(solid).string();
+      pieces = pieces_of(broken_mesh(mesh, options), warning);
+    }
   }
   if (!warning.empty()) {
     py::module_::import("warnings").attr("warn")(warning, py::arg("stacklevel") = 2);

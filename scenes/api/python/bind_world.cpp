@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
+#include <stdexcept>
 
 #include "engine/base/check.h"
 #include "engine/model/joint.h"
@@ -70,14 +70,24 @@ class PythonWorld {
   /// Calls `call(world)` while other threads may use the interpreter, but not this world.
   template <class Call>
   auto unlocked(const Call& call) {
+    check_unasked();
     const Use use(is_used_);
     const py::gil_scoped_release release;
     return call(world_);
   }
   /// Returns the world for a change.
   World& change() {
+    check_unasked();
+    World& world = ask();
     arrays_ = nullptr;
-    return ask();
+    return world;
+  }
+  /// Calls `query(world)`, which may call Python functions that ask the world, too.
+  template <class Query>
+  auto query(const Query& query) {
+    ask();
+    const Nesting nesting(queries_);
+    return query(world_);
   }
   /// Returns the world for a question.
   World& ask() {
@@ -103,12 +113,29 @@ class PythonWorld {
   const std::vector<std::string>& warnings() const { return *warnings_; }
 
  private:
+  /// Counts a query while it exists.
+  class Nesting {
+   public:
+    explicit Nesting(int& count) : count_(count) { ++count_; }
+    ~Nesting() { --count_; }
+    Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
+
+   private:
+    int& count_;
+  };
+
+  void check_unasked() const {
+    if (queries_ > 0) throw std::runtime_error("the world cannot change during a query");
+  }
+
   std::vector<std::string> materials_;  ///< Names by index.
   std::shared_ptr<std::vector<std::string>> warnings_ =
       std::make_shared<std::vector<std::string>>();
   World world_;
   std::shared_ptr<const BodyArrays> arrays_;  ///< Null after a change.
   bool is_used_ = false;
+  int queries_ = 0;  ///< Queries that are not finished.
 };
 
 World made(Scene scene, int threads, bool particles,
@@ -551,8 +578,10 @@ void bind_questions(WorldClass& type) {
           "cast",
           [](PythonWorld& self, const Vec3& start, const Vec3& direction, double most_m,
              double radius_m, std::uint32_t mask, bool ground, const py::object& accepts) {
-            return self.ask().cast(start, direction, most_m, radius_m,
-                                   filter_of(mask, ground, accepts));
+            return self.query([&](World& world) {
+              return world.cast(start, direction, most_m, radius_m,
+                                filter_of(mask, ground, accepts));
+            });
           },
           py::arg("start"), py::arg("direction"), py::arg("most_m") = 1e6,
           py::arg("radius_m") = 0.0, py::arg("mask") = 0xffffffff, py::arg("ground") = true,
@@ -566,8 +595,10 @@ void bind_questions(WorldClass& type) {
           "cast_all",
           [](PythonWorld& self, const Vec3& start, const Vec3& direction, double most_m,
              double radius_m, std::uint32_t mask, bool ground, const py::object& accepts) {
-            return self.ask().cast_all(start, direction, most_m, radius_m,
-                                       filter_of(mask, ground, accepts));
+            return self.query([&](World& world) {
+              return world.cast_all(start, direction, most_m, radius_m,
+                                    filter_of(mask, ground, accepts));
+            });
           },
           py::arg("start"), py::arg("direction"), py::arg("most_m") = 1e6,
           py::arg("radius_m") = 0.0, py::arg("mask") = 0xffffffff, py::arg("ground") = true,
@@ -579,7 +610,9 @@ void bind_questions(WorldClass& type) {
           "overlap",
           [](PythonWorld& self, const Vec3& center, double radius_m, std::uint32_t mask,
              bool ground, const py::object& accepts) {
-            return self.ask().overlap(center, radius_m, filter_of(mask, ground, accepts));
+            return self.query([&](World& world) {
+              return world.overlap(center, radius_m, filter_of(mask, ground, accepts));
+            });
           },
           py::arg("center"), py::arg("radius_m"), py::arg("mask") = 0xffffffff,
           py::arg("ground") = true, py::arg("accepts") = py::none(),
@@ -588,7 +621,9 @@ void bind_questions(WorldClass& type) {
           "overlap_box",
           [](PythonWorld& self, const Vec3& low, const Vec3& high, std::uint32_t mask, bool ground,
              const py::object& accepts) {
-            return self.ask().overlap(Box{low, high}, filter_of(mask, ground, accepts));
+            return self.query([&](World& world) {
+              return world.overlap(Box{low, high}, filter_of(mask, ground, accepts));
+            });
           },
           py::arg("low"), py::arg("high"), py::arg("mask") = 0xffffffff, py::arg("ground") = true,
           py::arg("accepts") = py::none(),
