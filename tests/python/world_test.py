@@ -180,6 +180,17 @@ class Worlds(unittest.TestCase):
             self.assertRaisesRegex(RuntimeError, "during a query", world.cast, *ray, accepts=change)
         world.remove(box)
 
+    def test_go_on_alike_in_a_copy(self):
+        world = sunder.World(sunder.load_scene("brick_wall"))
+        world.run(0.5)
+        kept = world.copy()
+        world.run(0.5)
+        for _ in range(2):  # a copy can be copied again
+            again = kept.copy()
+            again.run(0.5)
+            self.assertEqual(again.state_hash(), world.state_hash())
+        self.assertAlmostEqual(kept.time_s, 0.5)
+
     def test_list_contacts(self):
         world, box = box_world()
         world.set_motion(box, origin=(0, 0.5, 0))

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/model/joint.h"
@@ -99,6 +101,11 @@ class PythonWorld {
     change();
     unlocked([&](World& world) { world.step(dt_s); });
   }
+  /// Returns a world in the same state, which shares the list of warnings.
+  std::unique_ptr<PythonWorld> copy() {
+    World world = unlocked([](World& of) { return of.copy(); });
+    return std::unique_ptr<PythonWorld>(new PythonWorld(std::move(world), materials_, warnings_));
+  }
   Bodies bodies() {
     if (!arrays_) arrays_ = std::make_shared<const BodyArrays>(ask().bodies());
     return {arrays_};
@@ -113,6 +120,12 @@ class PythonWorld {
   const std::vector<std::string>& warnings() const { return *warnings_; }
 
  private:
+  PythonWorld(World world, std::vector<std::string> materials,
+              std::shared_ptr<std::vector<std::string>> warnings)
+      : materials_(std::move(materials)),
+        warnings_(std::move(warnings)),
+        world_(std::move(world)) {}
+
   /// Counts a query while it exists.
   class Nesting {
    public:
@@ -322,6 +335,10 @@ void bind_time(WorldClass& type) {
       .def("run", &run, py::arg("duration_s"), py::arg("on_frame") = py::none(),
            "Advances by a time in steps of 1/60 s. Calls on_frame(world) after each of them, and "
            "stops if the call returns False. A keyboard interrupt stops it, too.")
+      .def(
+          "copy", &PythonWorld::copy,
+          "Returns a world in the same state, which goes on with the same bits: to roll back, keep "
+          "a copy. A planar world cannot be copied.")
       .def_property_readonly(
           "time_s", [](PythonWorld& self) { return self.ask().time_s(); }, "Time in s.")
       .def_property_readonly(
