@@ -46,8 +46,7 @@ struct Column {
 
  private:
   Column(const Compound& compound, std::unique_ptr<ScriptedPhysics> owned)
-      : world(scene(), std::move(owned)),
-        physics(static_cast<ScriptedPhysics*>(&*world.physics)) {
+      : world(scene(), std::move(owned)), physics(static_cast<ScriptedPhysics*>(&*world.physics)) {
     const Solid solid{"column", compound, {}};
     add_compounds(world, std::span(&solid, 1));
   }

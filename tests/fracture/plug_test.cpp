@@ -141,6 +141,31 @@ TEST(Plug, without_a_pattern_takes_the_convexes_in_its_path) {
   for (const Compound& piece : edit.loose.pieces) EXPECT_EQ(piece.convexes.size(), 1u);
 }
 
+TEST(Plug, without_a_pattern_parts_also_where_the_solid_is_too_narrow_for_a_hole) {
+  Material chunks = brick();
+  const Compound wall = make_solid("grid:9,9,1");
+  StructureImpact hit = shot(40, 0.7, 9);
+  hit.direction_R = Vec3::UnitY();  // into the edge of the wall
+  hit.point_R = Vec3(4.5, 0, 0.5);
+  hit.volume_m3 = 81;
+  hit.confined = false;
+  for (Vec3& corner : hit.section_R) corner = hit.point_R + Vec3(corner.x(), 0, corner.y());
+  const auto breaker = make_pattern_breaker();
+  for (const bool has_pattern : {true, false}) {
+    if (!has_pattern) chunks.pattern.kind = PatternSpec::Kind::kNone;
+    const std::vector<Material> materials{chunks};
+    const BreakCommand command = breaker->command(*wall.convexes[0], materials, hit, 1, 1);
+    ASSERT_EQ(command.plug.has_value(), !has_pattern);
+    if (has_pattern) continue;
+    const BreakEdit edit = breaker->plan(Structure(wall), command);
+    ASSERT_TRUE(edit.changed);
+    for (const Compound& piece : edit.loose.pieces) {
+      ASSERT_EQ(piece.convexes.size(), 1u);
+      EXPECT_LT((piece.convexes[0]->solid.centroid - hit.point_R).cwiseAbs().x(), 2);
+    }
+  }
+}
+
 TEST(Plug, has_rings_of_cracks_around_it_that_are_no_regular_polygons) {
   constexpr std::size_t kCorners = 8, kRings = 5, kSeeds = 8;
   Plug plug;

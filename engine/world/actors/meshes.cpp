@@ -9,7 +9,7 @@
 namespace sunder {
 namespace {
 
-constexpr std::size_t kFewest = 1024;  // meshes, or requests, among which unneeded ones are sought
+constexpr std::size_t kFewest = 128;  // meshes, or requests, among which unneeded ones are sought
 
 }  // namespace
 
