@@ -71,19 +71,18 @@ void add_rings(const Material& material, const StructureImpact& hit, double radi
 /// Shortens a plug that the striker cannot drive out to a crater of the impact's energy, and
 /// narrows its section to that of a round nose; updates `width_m` and `area_m2`. Returns false if
 /// the solid is too narrow there and breaks as a whole.
-bool become_crater(const StructureImpact& hit, bool confined, double& width_m, double& area_m2,
-                   Plug& plug) {
+bool become_crater(const StructureImpact& hit, double& width_m, double& area_m2, Plug& plug) {
   const double share = kMaxPerforationShare * hit.energy_J / plug.energy_J;
   plug.energy_J *= share;
   plug.depth_m *=
       std::sqrt(std::sqrt(std::sqrt(share * share * share)));  // The energy grows as depth^(8/3).
-  if (!confined && plug.depth_m > kMaxShallowCraterDepth * width_m) return false;
+  if (!hit.confined && plug.depth_m > kMaxShallowCraterDepth * width_m) return false;
   const double part = std::min(1.0, 2 * plug.depth_m / width_m);
   const double scale = std::sqrt(part * (2 - part));
   for (Vec2& corner : plug.section_m) corner *= scale;
   width_m *= scale, area_m2 *= scale * scale;
   const double size_m = std::cbrt(hit.volume_m3);
-  return confined || !(area_m2 > kMaxCraterShare * size_m * size_m);
+  return hit.confined || !(area_m2 > kMaxCraterShare * size_m * size_m);
 }
 
 }  // namespace
@@ -118,10 +117,10 @@ std::optional<Plug> make_plug(const Material& material, const StructureImpact& h
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
   plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
   plug.through = plug.energy_J <= kMaxPerforationShare * hit.energy_J;
-  // A solid without a pattern cannot break as a whole, so it parts near an edge, too.
+  // A solid without a pattern cannot break as a whole, so it lets a striker through near an edge.
   const bool confined = hit.confined || material.pattern.kind == PatternSpec::Kind::kNone;
   if (plug.through ? !confined : !hit.held) return {};
-  if (!plug.through && !become_crater(hit, confined, width_m, area_m2, plug)) return {};
+  if (!plug.through && !become_crater(hit, width_m, area_m2, plug)) return {};
   plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
   if (plug.through)
     for (Vec2& corner : plug.section_m) corner *= kHoleClearance;
