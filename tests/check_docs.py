@@ -321,7 +321,7 @@ def check_commands(root, program):
     presets = {preset["name"] for kind in ("configure", "build", "test", "workflow") for preset in
                json.loads((root / "CMakePresets.json").read_text(encoding="utf-8")).get(
                    kind + "Presets", [])}
-    cmake = "\n".join(path.read_text(encoding="utf-8") for folder in ("bench", "tests", "scenes")
+    cmake = "\n".join(path.read_text(encoding="utf-8") for folder in ("bench", "tests", "scenes", "examples")
                       for path in (root / folder).rglob("CMakeLists.txt"))
     targets = set(re.findall(r"\b(?:sunder_\w+|add_executable)\((\w+)", cmake))
     messages, shown, ran = [], set(), set()

@@ -206,7 +206,8 @@ TEST(Copies, AreMirroredPointByPoint) {
       const Convex& convex = *image.compound.convexes[0];
       EXPECT_TRUE(is_closed(convex.polyhedron));
       EXPECT_GT(mass_properties(convex.polyhedron).volume_m3, 0) << "outward";
-      const auto reflect = [&](const Vec3& p) { return Vec3(at + signs[i].cwiseProduct(p - at)); };
+      const Vec3& sign = signs[i];
+      const auto reflect = [&](const Vec3& p) { return Vec3(at + sign.cwiseProduct(p - at)); };
       for (const Vec3& vertex : first.compound.convexes[0]->polyhedron.vertices) {
         double nearest = 1e9;
         for (const Vec3& other : convex.polyhedron.vertices) {

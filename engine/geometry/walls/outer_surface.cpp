@@ -56,7 +56,7 @@ void cancel_opposite(std::vector<PieceSurface::Face>& triangles) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const PieceSurface::Contour& contour = triangles[t].contours[0];
     std::array<std::uint32_t, 3> points = {contour[0].point, contour[1].point, contour[2].point};
-    std::ranges::rotate(points, std::ranges::min_element(points));
+    std::rotate(points.begin(), std::ranges::min_element(points), points.end());
     const bool is_reversed = points[1] > points[2];
     if (is_reversed) std::swap(points[1], points[2]);
     all.push_back({points, t, is_reversed});
