@@ -24,21 +24,6 @@ constexpr std::uint64_t kEvent = 1;
 /// Smallest volume of a brick of the pattern, as a fraction of the largest convex's volume.
 constexpr double kMinBrickFraction = 1e-5;
 
-/// Returns the finite numbers of a text such as "1,2.5,3"; none if it has anything else.
-std::vector<double> numbers(std::string_view text, char between) {
-  std::vector<double> found;
-  for (bool more = true; more;) {
-    const std::size_t end = std::min(text.find(between), text.size());
-    more = end < text.size();
-    double number = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + end, number);
-    if (error != std::errc() || stop != text.data() + end || !std::isfinite(number)) return {};
-    found.push_back(number);
-    text.remove_prefix(more ? end + 1 : end);
-  }
-  return found;
-}
-
 /// A pattern "kind:sizes" while it is parsed.
 struct Spec {
   const std::string& option;
@@ -69,7 +54,7 @@ PatternSpec parse_built_in(const std::string& option, const std::string& text,
   using Kind = PatternSpec::Kind;
   const Spec spec{
       option, text,
-      numbers(std::string_view(text).substr(kind.size() + 1), kind == "web" ? 'x' : ',')};
+      numbers_in(std::string_view(text).substr(kind.size() + 1), kind == "web" ? 'x' : ',')};
   const std::size_t count = spec.sizes.size();
   PatternSpec pattern;
   if (kind == "voronoi") {
@@ -150,6 +135,20 @@ fracture::PreparedBreak prepare(const BreakCommand& command, const Compound& com
 }
 
 }  // namespace
+
+std::vector<double> numbers_in(std::string_view text, char between) {
+  std::vector<double> found;
+  for (bool more = true; more;) {
+    const std::size_t end = std::min(text.find(between), text.size());
+    more = end < text.size();
+    double number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + end, number);
+    if (error != std::errc() || stop != text.data() + end || !std::isfinite(number)) return {};
+    found.push_back(number);
+    text.remove_prefix(more ? end + 1 : end);
+  }
+  return found;
+}
 
 PatternSpec parse_pattern(const std::string& text, const std::string& option) {
   if (text.ends_with(".obj") || std::filesystem::is_regular_file(text)) {

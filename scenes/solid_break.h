@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/model/breaker.h"
@@ -14,6 +15,8 @@
 
 namespace sunder::scenes {
 
+/// Returns the finite numbers of a text such as "1,2.5,3"; none if it has anything else.
+std::vector<double> numbers_in(std::string_view text, char between);
 /// The syntax of parse_pattern().
 inline constexpr const char* kPatternHelp =
     "voronoi:N[,FALLOFF] | web:RINGSxSPOKES | radial:N | brick:X,Y,Z | slabs:N | grid:N (N^3 "

@@ -8,24 +8,10 @@
 
 #include "engine/base/check.h"
 #include "scenes/file/keys.h"
+#include "scenes/solid_break.h"
 
 namespace sunder::app {
 namespace {
-
-/// Returns the finite numbers of a text such as "1,2.5,3"; none if it has anything else.
-std::vector<double> numbers(std::string_view text, char between) {
-  std::vector<double> found;
-  for (bool more = true; more;) {
-    const std::size_t end = std::min(text.find(between), text.size());
-    more = end < text.size();
-    double number = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + end, number);
-    if (error != std::errc() || stop != text.data() + end || !std::isfinite(number)) return {};
-    found.push_back(number);
-    text.remove_prefix(more ? end + 1 : end);
-  }
-  return found;
-}
 
 bool is_none(const std::string& path) { return path.empty() || path == "-"; }
 
@@ -67,7 +53,7 @@ void check_files(const std::vector<NamedFile>& writes, const std::vector<NamedFi
 }
 
 Vec3 parse_point(const std::string& flag, const std::string& text) {
-  const std::vector<double> found = numbers(text, ',');
+  const std::vector<double> found = scenes::numbers_in(text, ',');
   if (found.size() != 3) {
     throw InputError(flag + " " + text + ": expected three numbers, x,y,z, without spaces");
   }
