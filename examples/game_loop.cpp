@@ -67,7 +67,7 @@ class Game {
   std::size_t pieces() const { return pieces_; }
 
  private:
-  /// What a hundred guards see.
+  /// Counts the guards, of a hundred, that see something.
   void look_around(int number) {
     seen_ = 0;
     for (int i = 0; i < 100; ++i) {

@@ -1,4 +1,4 @@
-// Where rays and moving balls meet convexes, and whether balls and boxes overlap them.
+// Intersections of rays and moving balls with convexes, and overlaps of balls and boxes with them.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct MovingBall {
   double radius_m = 0;
 };
 
-/// Where a moving ball meets a surface first.
+/// The first point at which a moving ball touches a surface.
 struct SurfaceHit {
   double distance_m = 0;  ///< Of the ball's centre from its start; 0 if it overlaps at the start.
   /// Unit normal of the surface, outward; against the motion if the ball overlaps at the start.

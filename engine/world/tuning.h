@@ -9,7 +9,7 @@
 
 namespace sunder {
 
-// What a program may ask for.
+// Arguments of World.
 
 /// Bounds of the time of World::step(): gravity moves a body by 5 cm in the longest.
 inline constexpr double kShortestStep_s = 1e-6, kLongestStep_s = 0.1;

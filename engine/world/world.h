@@ -86,7 +86,7 @@ struct BodyArrays {
   std::vector<std::uint8_t> is_static, asleep;
 };
 
-/// What a query may find.
+/// Selects the bodies that a query can find.
 struct QueryFilter {
   /// A body is found if its filter's category is in this mask.
   std::uint32_t mask = 0xffffffff;
@@ -128,7 +128,7 @@ struct Hit {
   double mass_kg = 0;  ///< Effective mass along the normal: the energy is mass · speed² / 2.
 };
 
-/// What happened in the last step, or between it and the one before.
+/// Changes during the last step, and between it and the step before.
 struct Events {
   std::vector<BreakEvent> breaks;
   std::vector<Hit> hits;  ///< If requested by report_hits(); sorted by keys.
@@ -217,7 +217,7 @@ class World {
                                const QueryFilter& filter = {}) const;
   std::vector<Overlap> overlap(const Box& box_W, const QueryFilter& filter = {}) const;
 
-  /// What happened in the last step; valid until the next.
+  /// Returns the events of the last step; valid until the next step.
   const Events& events() const;
   /// Reports hits of at least this closing speed from now on; infinity, the default: none.
   void report_hits(double least_m_s);

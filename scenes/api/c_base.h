@@ -1,4 +1,4 @@
-// What all functions of the C interface share: memory, errors, and handles. Internal to scenes/api.
+// Memory, errors and handles of all functions of the C interface. Internal to scenes/api.
 //
 // Read first: guard(), in which every function that can fail runs, then ask_world() and
 // change_world().

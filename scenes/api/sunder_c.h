@@ -142,8 +142,9 @@ typedef struct SunderFilter {
 // Worlds
 // ---------------------------------------------------------------------------------------------
 
-/// What a world is made of. At most one of `scene` and `scene_text` is given; without either the
-/// world has the built-in materials, a ground plane at the height 0, and no bodies.
+/// The scene of a new world, and options of its run. At most one of `scene` and `scene_text` is
+/// given; without either the world has the built-in materials, a ground plane at the height 0, and
+/// no bodies.
 typedef struct SunderWorldDef {
   uint32_t cookie;    ///< Set by sunder_default_world_def().
   const char* scene;  ///< A scene file, or the name of a scene that comes with Sunder; or null.
@@ -533,7 +534,7 @@ typedef struct SunderBodyArrays {
 SUNDER_API SunderResult sunder_world_bodies(SunderWorld world, const SunderBodyArrays* arrays,
                                             uint32_t* count);
 
-/// What a query may find.
+/// Selects the bodies that a query can find.
 typedef struct SunderQuery {
   uint32_t cookie;     ///< Set by sunder_default_query().
   uint32_t mask;       ///< A body is found if its filter's category has a bit in this mask.
@@ -614,7 +615,7 @@ typedef struct SunderHit {
   double mass_kg;       ///< Effective mass along the normal: the energy is mass · speed² / 2.
 } SunderHit;
 
-/// What happened in the last step, or between it and the one before.
+/// Changes during the last step, and between it and the step before.
 typedef struct SunderEvents {
   const SunderBreak* breaks;
   uint32_t break_count;
@@ -707,7 +708,7 @@ typedef struct SunderDust {
   SunderMaterial material;
 } SunderDust;
 
-/// What there is to draw at present.
+/// The meshes and particles to draw at present.
 typedef struct SunderFrame {
   uint64_t index;
   double time_s;

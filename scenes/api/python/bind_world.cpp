@@ -305,7 +305,8 @@ void bind_answers(py::module_& module) {
       .def_readonly("normal", &Hit::normal_W, "Unit normal from a to b.")
       .def_readonly("speed_m_s", &Hit::speed_m_s, "Closing speed along the normal.")
       .def_readonly("mass_kg", &Hit::mass_kg, "Effective mass along the normal.");
-  py::class_<Events>(module, "Events", "What happened in the last step, or just before it.")
+  py::class_<Events>(module, "Events",
+                     "Changes during the last step, and between it and the step before.")
       .def_readonly("breaks", &Events::breaks, "Bodies that broke or cracked.")
       .def_readonly("hits", &Events::hits, "Hits, if report_hits() was called.")
       .def_property_readonly(
@@ -650,7 +651,7 @@ void bind_questions(WorldClass& type) {
           "Names of the materials by index.")
       .def_property_readonly(
           "events", [](PythonWorld& self) { return Events(self.ask().events()); },
-          "What happened in the last step, or between it and the one before.")
+          "Changes during the last step, and between it and the step before.")
       .def(
           "report_hits",
           [](PythonWorld& self, double least_m_s) { self.change().report_hits(least_m_s); },

@@ -208,7 +208,7 @@ class Contact:
 
 
 class Events:
-    """What happened in the last step, or just before it."""
+    """Changes during the last step, and between it and the step before."""
     @property
     def breaks(self) -> List[Break]:
         """Bodies that broke or cracked."""
@@ -816,7 +816,7 @@ class World:
         """Names of the materials by index."""
     @property
     def events(self) -> Events:
-        """What happened in the last step, or between it and the one before."""
+        """Changes during the last step, and between it and the step before."""
     def report_hits(self, least_m_s: float) -> None:
         """Has `events` list hits of at least this closing speed from now on; inf: none."""
     @property
