@@ -120,7 +120,10 @@ struct World::Parts {
   const Actor& actor(BodyKey key, const char* call) const {
     return const_cast<Parts*>(this)->actor(key, call);
   }
+  /// As actor(); also throws if the body is anchored.
+  const Actor& movable(BodyKey key, const char* call) const;
   void changed();
+  BodyKey added(const std::string& name);
   void advance();
   void note_hits();
   void end_step();
@@ -133,6 +136,23 @@ Actor& World::Parts::actor(BodyKey key, const char* call) {
     check(call).refuse("there is no body " + name, "the key of a body that is in the world");
   }
   return *found;
+}
+
+const Actor& World::Parts::movable(BodyKey key, const char* call) const {
+  const Actor& found = actor(key, call);
+  if (found.is_static && !found.is_kinematic)
+    check(call).refuse("body " + std::to_string(key.value) + " is anchored",
+                       "a body that can move; release() frees it");
+  return found;
+}
+
+/// Completes the actor that a call has added last; returns its key.
+BodyKey World::Parts::added(const std::string& name) {
+  changed();
+  Actor& actor = world.actors[world.actors.size() - 1];
+  actor.name = world.add_name(name);
+  world.log.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
+  return BodyKey(std::size_t{actor.key});
 }
 
 /// Forgets what was computed of the present state.
@@ -292,41 +312,26 @@ MaterialIndex World::add(const Material& material) {
 
 BodyKey World::add(const Solid& solid) {
   parts_->check("add").solid(solid, "solid");
-  WorldState& world = parts_->world;
-  parts_->changed();
-  add_compounds(world, std::span(&solid, 1));
-  Actor& actor = world.actors[world.actors.size() - 1];
-  actor.name = world.add_name(solid.name);
-  world.log.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
-  return BodyKey(std::size_t{actor.key});
+  add_compounds(parts_->world, std::span(&solid, 1));
+  return parts_->added(solid.name);
 }
 
 BodyKey World::add(const Asset& asset, const BodyMotion& motion, const std::string& name) {
-  const ItemCheck check = parts_->check("add");
   Solid solid;
   solid.name = name;
   solid.compound = asset.compound();
   solid.X_WR = motion.X_WR;
   solid.velocity_W = motion.velocity_W;
   solid.angular_velocity_W = motion.angular_velocity_W;
-  check.solid(solid, "solid");
-  WorldState& world = parts_->world;
-  parts_->changed();
-  Actor& actor = add_structure(world, solid, asset.data_->structure);
-  actor.name = world.add_name(solid.name);
-  world.log.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
-  return BodyKey(std::size_t{actor.key});
+  parts_->check("add").solid(solid, "solid");
+  add_compounds(parts_->world, std::span(&solid, 1), {asset.data_->structure});
+  return parts_->added(name);
 }
 
 BodyKey World::add(const Ball& ball) {
   parts_->check("add").ball(ball, "ball");
-  WorldState& world = parts_->world;
-  parts_->changed();
-  add_ball(world, ball);
-  Actor& actor = world.actors[world.actors.size() - 1];
-  actor.name = world.add_name(ball.name);
-  world.log.report.energy.script += kinetic_J(actor, world.physics->state(actor.body));
-  return BodyKey(std::size_t{actor.key});
+  add_ball(parts_->world, ball);
+  return parts_->added(ball.name);
 }
 
 JointKey World::add(const Joint& joint) {
@@ -370,14 +375,11 @@ void World::remove(JointKey joint) {
 }
 
 void World::set_motion(BodyKey body, const BodyMotion& motion) {
-  const Actor& actor = parts_->actor(body, "set_motion");
+  const Actor& actor = parts_->movable(body, "set_motion");
   const ItemCheck check = parts_->check("set_motion");
   check.pose(motion.X_WR, "motion.X_WR");
   check.need_finite(motion.velocity_W, "motion.velocity_W");
   check.need_finite(motion.angular_velocity_W, "motion.angular_velocity_W");
-  if (actor.is_static && !actor.is_kinematic)
-    check.refuse("body " + std::to_string(body.value) + " is anchored",
-                 "a body that can move; release() frees it");
   parts_->changed();
   const Quat rotation = motion.X_WR.rotation.normalized();
   const Pose X_WR{motion.X_WR.position, rotation};
@@ -388,13 +390,10 @@ void World::set_motion(BodyKey body, const BodyMotion& motion) {
 }
 
 void World::move_to(BodyKey body, const Pose& X_WR, double duration_s) {
-  const Actor& actor = parts_->actor(body, "move_to");
+  const Actor& actor = parts_->movable(body, "move_to");
   const ItemCheck check = parts_->check("move_to");
   check.pose(X_WR, "X_WR");
   check.need_number(duration_s, kShortestStep_s, kMaxTime_s, "duration_s");
-  if (actor.is_static && !actor.is_kinematic)
-    check.refuse("body " + std::to_string(body.value) + " is anchored",
-                 "a body that can move; release() frees it");
   parts_->changed();
   const Pose from = rest_pose(actor, parts_->world.physics->state(actor.body).X_WB);
   Move move;

@@ -200,32 +200,33 @@ SunderAsset add_asset(AssetPtr asset) {
   return handles().assets.add(std::move(asset), handles().next_generation());
 }
 
-WorldPtr find_world(SunderWorld handle) {
+namespace {
+
+/// Returns what `look(handles())` finds of a handle; refuses the handle if that is null.
+template <class Handle, class Look>
+auto look_up(const char* kind, Handle handle, const Look& look) {
   const std::lock_guard lock(handles().mutex);
-  WorldPtr found = handles().worlds.find(handle);
-  if (!found) refuse_handle("world", handle.index, handle.generation);
+  auto found = look(handles());
+  if (!found) refuse_handle(kind, handle.index, handle.generation);
   return found;
+}
+
+}  // namespace
+
+WorldPtr find_world(SunderWorld handle) {
+  return look_up("world", handle, [&](auto& all) { return all.worlds.find(handle); });
 }
 
 AssetPtr find_asset(SunderAsset handle) {
-  const std::lock_guard lock(handles().mutex);
-  AssetPtr found = handles().assets.find(handle);
-  if (!found) refuse_handle("asset", handle.index, handle.generation);
-  return found;
+  return look_up("asset", handle, [&](auto& all) { return all.assets.find(handle); });
 }
 
 WorldPtr take_world(SunderWorld handle) {
-  const std::lock_guard lock(handles().mutex);
-  WorldPtr found = handles().worlds.take(handle);
-  if (!found) refuse_handle("world", handle.index, handle.generation);
-  return found;
+  return look_up("world", handle, [&](auto& all) { return all.worlds.take(handle); });
 }
 
 AssetPtr take_asset(SunderAsset handle) {
-  const std::lock_guard lock(handles().mutex);
-  AssetPtr found = handles().assets.take(handle);
-  if (!found) refuse_handle("asset", handle.index, handle.generation);
-  return found;
+  return look_up("asset", handle, [&](auto& all) { return all.assets.take(handle); });
 }
 
 bool has_world(SunderWorld handle) noexcept {

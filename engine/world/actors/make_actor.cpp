@@ -189,6 +189,7 @@ BodyDesc make_body_desc(const WorldState& world, const Actor& actor, const Motio
   }
   actor.structure.for_each(
       [&](ConvexSlot slot, const Convex&) { body.shapes.push_back(shape_of(world, actor, slot)); });
+  if (actor.structure.empty()) body.shapes = {ball_shape(world, actor)};
   body.tag = actor.key;
   body.filter = actor.filter;
   body.reports_load = reports_contact_loads(world, actor);
@@ -210,31 +211,24 @@ double push_actor(WorldState& world, const Actor& actor, const Vec3& impulse_W,
 
 void remake_body(WorldState& world, Actor& actor) {
   const Motion motion = motion_of(actor, world.physics->state(actor.body));
-  BodyDesc body = make_body_desc(world, actor, motion);
-  if (actor.structure.empty()) body.shapes = {ball_shape(world, actor)};
+  const BodyDesc body = make_body_desc(world, actor, motion);
   actor.body = world.physics->replace(std::span(&actor.body, 1), std::span(&body, 1))[0];
   world.joints.reattach(*world.physics, actor);
 }
 
-Actor& add_structure(WorldState& world, const Solid& solid, Structure structure) {
-  Actor actor = make_actor(world, solid.compound, std::move(structure));
-  actor.filter = solid.filter;
-  actor.user_data = solid.user_data;
-  count_limits(world, actor);
-  const BodyDesc body = make_body_desc(
-      world, actor,
-      {solid.X_WR, {solid.X_WR * actor.weight.com_R, solid.velocity_W, solid.angular_velocity_W}});
-  world.meshes.add_to(std::span(&actor, 1), {});
-  actor.body = world.physics->replace({}, std::span(&body, 1))[0];
-  world.actors.add(std::move(actor));
-  return world.actors[world.actors.size() - 1];
+void add_compounds(WorldState& world, std::span<const Solid> solids) {
+  std::vector<Structure> structures;
+  for (const Solid& solid : solids) structures.emplace_back(solid.compound);
+  add_compounds(world, solids, std::move(structures));
 }
 
-void add_compounds(WorldState& world, std::span<const Solid> solids) {
+void add_compounds(WorldState& world, std::span<const Solid> solids,
+                   std::vector<Structure> structures) {
   std::vector<Actor> actors;
   std::vector<BodyDesc> bodies;
-  for (const Solid& solid : solids) {
-    Actor& actor = actors.emplace_back(make_actor(world, solid.compound));
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Solid& solid = solids[i];
+    Actor& actor = actors.emplace_back(make_actor(world, solid.compound, std::move(structures[i])));
     actor.filter = solid.filter;
     actor.user_data = solid.user_data;
     count_limits(world, actor);
@@ -263,14 +257,9 @@ void add_ball(WorldState& world, const Ball& ball) {
   actor.born_step = world.clock.step;
   actor.meshes = {world.meshes.add(make_ball_mesh(radius, ball.material))};
 
-  BodyDesc body;
-  body.X_WB.position = ball.center_W;
-  body.velocity_W = ball.velocity_W;
-  body.mass_kg = actor.weight.mass_kg;
-  body.inertia_B = actor.weight.inertia_R;
-  body.shapes = {ball_shape(world, actor)};
-  body.tag = actor.key;
-  body.filter = ball.filter;
+  const BodyDesc body = make_body_desc(
+      world, actor,
+      {{ball.center_W, Quat::Identity()}, {ball.center_W, ball.velocity_W, Vec3::Zero()}});
   actor.body = world.physics->replace({}, std::span(&body, 1))[0];
   world.actors.add(std::move(actor));
 }

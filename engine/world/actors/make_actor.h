@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "engine/world/actors/world_state.h"
 
@@ -35,9 +36,10 @@ double push_actor(WorldState& world, const Actor& actor, const Vec3& impulse_W,
 /// Makes an actor's body anew, in its present motion, after its filter or its kind has changed.
 void remake_body(WorldState& world, Actor& actor);
 
-/// Adds a solid whose structure is known, and returns its actor.
-Actor& add_structure(WorldState& world, const Solid& solid, Structure structure);
 void add_compounds(WorldState& world, std::span<const Solid> solids);
+/// `structures` are those of the solids' compounds, in their order.
+void add_compounds(WorldState& world, std::span<const Solid> solids,
+                   std::vector<Structure> structures);
 void add_ball(WorldState& world, const Ball& ball);
 
 }  // namespace sunder

@@ -59,24 +59,16 @@ class BroadPhase {
   /// more than once. hit() may shorten the ray.
   template <class Hit>
   void on_ray(const Ray& ray, std::span<const ShapeSlot> strays, const Hit& hit) const {
-    const auto present = [&](ShapeSlot s) {
-      if (!s.none() && role_[s] != Role::kAbsent) hit(s);
-    };
-    for (const HalfSpace& plane : half_spaces_) hit(plane.shape);
-    for (const ShapeSlot s : strays) hit(s);
-    mover_tree_.on_ray(ray, present);
-    static_forest_.on_ray(ray, present);
+    hit_without_trees(strays, hit);
+    mover_tree_.on_ray(ray, if_present(hit));
+    static_forest_.on_ray(ray, if_present(hit));
   }
   /// Likewise for each shape whose box may overlap `box`.
   template <class Hit>
   void in_box(const FloatBox& box, std::span<const ShapeSlot> strays, const Hit& hit) const {
-    const auto present = [&](ShapeSlot s) {
-      if (!s.none() && role_[s] != Role::kAbsent) hit(s);
-    };
-    for (const HalfSpace& plane : half_spaces_) hit(plane.shape);
-    for (const ShapeSlot s : strays) hit(s);
-    mover_tree_.overlaps(box, present);
-    static_forest_.overlaps(box, present);
+    hit_without_trees(strays, hit);
+    mover_tree_.overlaps(box, if_present(hit));
+    static_forest_.overlaps(box, if_present(hit));
   }
   /// Returns the fat boxes of all shapes that have one, in order of slots.
   std::vector<ShapeBox> boxes(const Shapes& shapes, const Bodies& bodies) const;
@@ -88,6 +80,18 @@ class BroadPhase {
     Vec3f normal_W;
     float d;
   };
+  template <class Hit>
+  void hit_without_trees(std::span<const ShapeSlot> strays, const Hit& hit) const {
+    for (const HalfSpace& plane : half_spaces_) hit(plane.shape);
+    for (const ShapeSlot s : strays) hit(s);
+  }
+  /// Returns a function that calls hit(shape), unless the shape has been removed from its tree.
+  template <class Hit>
+  auto if_present(const Hit& hit) const {
+    return [this, &hit](ShapeSlot s) {
+      if (!s.none() && role_[s] != Role::kAbsent) hit(s);
+    };
+  }
   void add_half_space(ShapeSlot shape, const Shapes& shapes, const Bodies& bodies);
   void remove_half_space(ShapeSlot shape);
   void update_boxes(const StepContext& step, const Shapes& shapes, const Bodies& bodies);
