@@ -190,6 +190,12 @@ struct AppliedForce {
 class StressCache {
  public:
   virtual ~StressCache() = default;
+  /// Returns, for each of some pieces of the structure, what a call about the piece needs of this;
+  /// null: all of it.
+  virtual std::vector<std::shared_ptr<const StressCache>> divide(
+      std::span<const Structure* const> pieces) const {
+    return std::vector<std::shared_ptr<const StressCache>>(pieces.size());
+  }
 };
 using StressCachePtr = std::shared_ptr<const StressCache>;
 /// Does nothing: only the breaker knows the type (Breaker::archive()).

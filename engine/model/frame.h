@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/loop_times.h"
@@ -42,8 +45,49 @@ struct Mesh {
 
 struct MeshTag;
 using MeshIndex = Index<MeshTag>;
-/// Append-only: an index never changes its meaning. Each frame has the store of its instant.
-using MeshStore = std::vector<std::shared_ptr<const Mesh>>;
+/// The meshes of a run by index. An index never changes its meaning; a mesh that nothing shows any
+/// more may be released. Each frame has the store of its instant. Copies share all blocks that have
+/// not changed since, so that a copy is cheap, and blocks of released meshes take no memory.
+class MeshStore {
+ public:
+  using Pointer = std::shared_ptr<const Mesh>;
+
+  MeshStore() = default;
+  MeshStore(std::initializer_list<Pointer> meshes) {
+    for (const Pointer& mesh : meshes) push_back(mesh);
+  }
+  /// Number of meshes, the released ones included.
+  std::size_t size() const { return size_; }
+  /// Returns a mesh, i < size(); null if it has been released.
+  const Pointer& operator[](std::size_t i) const {
+    static const Pointer kReleased;
+    const auto& block = blocks_[i / kBlock];
+    return block ? (*block)[i % kBlock] : kReleased;
+  }
+  void push_back(Pointer mesh);
+  /// Releases the meshes whose indices are given, ascending.
+  void release(std::span<const std::uint32_t> meshes);
+  /// Calls `visit(i)` for each mesh that has not been released, in ascending order.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (!blocks_[i / kBlock])
+        i += kBlock - 1;
+      else if ((*this)[i])
+        visit(i);
+    }
+  }
+  static auto fields(auto& self) { return std::tie(self.blocks_, self.size_); }
+
+ private:
+  static constexpr std::size_t kBlock = 64;
+  using Block = std::array<Pointer, kBlock>;
+
+  Block& changeable(std::size_t block);
+
+  std::vector<std::shared_ptr<Block>> blocks_;  ///< Null: all its meshes have been released.
+  std::size_t size_ = 0;
+};
 
 /// Camera, light and ground plane of a scene.
 struct View {

@@ -49,7 +49,7 @@ class MemoryUpdate {
   /// Makes the state from `old`, which may be null; adds the cost to `work`.
   std::shared_ptr<KnownStress> run(const KnownStress* old, std::uint64_t& work) {
     known_->displacements.resize(compound_.convexes.size());
-    if (old && edit_system(*old)) {
+    if (old && old->system && edit_system(*old)) {
       work += known_->system->edit_work();
     } else {
       make_system(old);
@@ -137,6 +137,25 @@ class MemoryUpdate {
 };
 
 }  // namespace
+
+std::vector<StressCachePtr> KnownStress::divide(std::span<const Structure* const> pieces) const {
+  std::vector<std::shared_ptr<KnownStress>> parts(pieces.size());
+  std::vector<std::pair<const Convex*, std::size_t>> owners;  // pieces by convex
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (pieces[p]->size() >= kMinKnownShare * static_cast<double>(convexes.size())) continue;
+    parts[p] = std::make_shared<KnownStress>();
+    pieces[p]->for_each([&](ConvexSlot, const Convex& convex) { owners.emplace_back(&convex, p); });
+  }
+  std::ranges::sort(owners);
+  for (std::size_t c = 0; c < convexes.size(); ++c) {
+    const auto owner =
+        std::ranges::lower_bound(owners, std::pair(convexes[c].get(), std::size_t{0}));
+    if (owner == owners.end() || owner->first != convexes[c].get()) continue;
+    parts[owner->second]->convexes.push_back(convexes[c]);
+    parts[owner->second]->displacements.push_back(displacements[c]);
+  }
+  return {parts.begin(), parts.end()};
+}
 
 std::shared_ptr<KnownStress> recall(const StressCache* memory, const Compound& compound,
                                     const std::vector<ConvexSlot>& slots,

@@ -29,12 +29,15 @@ struct KnownStress final : StressCache {
   std::vector<std::uint8_t> anchored;
   std::vector<Bond> bonds;
   std::size_t ghosts = 0;
-  std::shared_ptr<const StressSystem> system;
-  std::vector<Displacement> displacements;  ///< Under the steady load.
-  int iterations = 0;                       ///< Iterations of a solve that has not converged.
-  Nodal<double> last_direction;             ///< Last search direction of that solve.
-  KnownDeflection deflection;               ///< Under the last impact.
+  std::shared_ptr<const StressSystem> system;  ///< Null, and no bonds, in memory of a small piece.
+  std::vector<Displacement> displacements;     ///< Under the steady load.
+  int iterations = 0;                          ///< Iterations of a solve that has not converged.
+  Nodal<double> last_direction;                ///< Last search direction of that solve.
+  KnownDeflection deflection;                  ///< Under the last impact.
 
+  /// A piece that has less than kMinKnownShare of the convexes gets displacements alone: its system
+  /// will be made anew, and it shall not keep that of a large structure.
+  std::vector<StressCachePtr> divide(std::span<const Structure* const> pieces) const override;
   static auto fields(auto& self) {
     return std::tie(self.slots, self.convexes, self.anchored, self.bonds, self.ghosts, self.system,
                     self.displacements, self.iterations, self.last_direction, self.deflection);

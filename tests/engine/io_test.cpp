@@ -74,7 +74,7 @@ TEST(FrameFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(read->materials->at(1).name, "stone");
   EXPECT_EQ(read->materials->at(1).interior.texture, Texture::kConcrete);
   ASSERT_EQ(read->meshes->size(), 1u);
-  const Mesh &mesh = *read->meshes->at(0), &drawn = *frame.meshes->at(1);
+  const Mesh &mesh = *(*read->meshes)[0], &drawn = *(*frame.meshes)[1];
   EXPECT_EQ(mesh.indices, drawn.indices);
   EXPECT_EQ(mesh.X_RT.position, drawn.X_RT.position);
   EXPECT_EQ(mesh.X_RT.rotation.coeffs(), drawn.X_RT.rotation.coeffs());

@@ -83,8 +83,8 @@ void expect_same(const Frame& read, const Frame& frame) {
       << "a shared texture is read once";
   EXPECT_EQ((*read.appearances)[0].picture, (*read.appearances)[4].relief);
   ASSERT_EQ(read.meshes->size(), 2u);
-  EXPECT_TRUE(read.meshes->at(0)->uvs.empty());
-  const Mesh &got = *read.meshes->at(1), &given = *frame.meshes->at(1);
+  EXPECT_TRUE((*read.meshes)[0]->uvs.empty());
+  const Mesh &got = *(*read.meshes)[1], &given = *(*frame.meshes)[1];
   EXPECT_EQ(got.uvs, given.uvs);
   for (std::size_t v = 0; v < given.vertices.size(); ++v)
     EXPECT_EQ(got.vertices[v].look, given.vertices[v].look);

@@ -67,10 +67,10 @@ TEST(Golden, EveryTextureAndEveryPassIsInAGolden) {
   std::size_t debris = 0, dust = 0;
   for (const fs::path& file : goldens(".frame")) {
     const FramePtr frame = read_frame(file);
-    for (const auto& mesh : *frame->meshes) {
-      const Material& material = (*frame->materials)[mesh->material.value];
+    frame->meshes->for_each([&](std::size_t i) {
+      const Material& material = (*frame->materials)[(*frame->meshes)[i]->material.value];
       textures.insert({material.surface.texture, material.interior.texture});
-    }
+    });
     debris += frame->debris.size();
     dust += frame->dust.size();
   }

@@ -600,7 +600,11 @@ TEST(World, OtherBytesAreNotRestored) {
   for (std::size_t at = 30; at < saved.size(); at += 31) {
     std::vector<std::byte> other = saved;
     other[at] ^= std::byte{4};
-    refuses(other, "truncated or damaged");
+    try {  // a bit of the compression may mean nothing
+      EXPECT_TRUE(save_world(restore_world(other)) == saved) << at;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("truncated or damaged"));
+    }
   }
   std::vector<std::byte> newer = saved;
   newer[13] = std::byte{'9'};

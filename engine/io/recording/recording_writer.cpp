@@ -151,8 +151,10 @@ void RecordingWriter::Recording::write_new_meshes(const Frame& frame) {
   if (frame.meshes->size() == meshes_) return;
   ByteWriter content;
   content.put(static_cast<std::uint32_t>(frame.meshes->size() - meshes_));
-  for (std::size_t m = meshes_; m < frame.meshes->size(); ++m) put(content, *(*frame.meshes)[m]);
-  if (frame.appearances) put_uvs(content, std::span(*frame.meshes).subspan(meshes_));
+  std::vector<std::shared_ptr<const Mesh>> added;
+  for (std::size_t m = meshes_; m < frame.meshes->size(); ++m) added.push_back((*frame.meshes)[m]);
+  for (const std::shared_ptr<const Mesh>& mesh : added) put(content, *mesh);
+  if (frame.appearances) put_uvs(content, added);
   other_packer_.restart();
   append(BlockKind::kMeshes, static_cast<std::uint32_t>(meshes_), content.bytes.size(),
          other_packer_.pack(content.bytes));

@@ -51,16 +51,15 @@ void Meshes::free_unused(const Actors& actors, std::span<const MeshIndex> others
   };
   for (const Actor& actor : actors) std::ranges::for_each(actor.meshes, use);
   std::ranges::for_each(others, use);
-  unused_.resize(store_->size(), 0);
-  MeshStore& store = changeable();
-  for (std::size_t i = 0; i < store.size(); ++i) {
-    if (!store[i]) continue;
-    if (used[i] == 0 && unused_[i] != 0) {
-      store[i] = nullptr;
-      --kept_;
-    }
-    unused_[i] = 1 - used[i];
-  }
+  std::vector<std::uint32_t> unused, released;
+  store_->for_each([&](std::size_t i) {
+    if (used[i] != 0) return;
+    const auto mesh = static_cast<std::uint32_t>(i);
+    (std::ranges::binary_search(unused_, mesh) ? released : unused).push_back(mesh);
+  });
+  changeable().release(released);
+  kept_ -= released.size();
+  unused_ = std::move(unused);
   searched_ = !searched_;
   if (!searched_) most_ = 2 * kept_ + kFewest;
 }

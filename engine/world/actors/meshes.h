@@ -57,13 +57,13 @@ class Meshes {
   static bool is_needed(const Actors& actors, const Pending& one);
 
   std::shared_ptr<MeshStore> store_ = std::make_shared<MeshStore>();
-  bool searched_ = false;             ///< True after the first search of a pair.
-  std::vector<std::uint8_t> unused_;  ///< 1 for each mesh that the last search found unused.
-  std::size_t kept_ = 0;              ///< Meshes that are not null.
-  std::size_t most_ = 0;              ///< Number of them from which unused ones are sought.
-  bool published_ = false;            ///< A frame shares the store: copy before a change.
-  std::vector<Pending> pending_;      ///< Requests since the last draw().
-  std::size_t most_pending_ = 0;      ///< Number of them from which unneeded ones are sought.
+  bool searched_ = false;              ///< True after the first search of a pair.
+  std::vector<std::uint32_t> unused_;  ///< Meshes that the last search found unused; ascending.
+  std::size_t kept_ = 0;               ///< Meshes that are not null.
+  std::size_t most_ = 0;               ///< Number of them from which unused ones are sought.
+  bool published_ = false;             ///< A frame shares the store: copy before a change.
+  std::vector<Pending> pending_;       ///< Requests since the last draw().
+  std::size_t most_pending_ = 0;       ///< Number of them from which unneeded ones are sought.
 };
 
 }  // namespace sunder

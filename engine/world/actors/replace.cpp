@@ -125,12 +125,26 @@ struct Pieces {
     piece.inherit(parent);
     set_least(world, piece);  // recomputed, as it is a fragment
     count_limits(world, piece);
-    if (piece.stress.breakable) piece.stress.memory = parent.stress.memory;
     world.log.debris_mass_kg -= piece.weight.mass_kg;
     bodies.push_back(make_body_desc(world, piece, motion));
     return piece.key;
   }
 };
+
+/// Passes the parent's memory of stress on to the pieces that load can break.
+void share_stress_memory(const StressCachePtr& memory, std::span<Actor> pieces) {
+  if (!memory) return;
+  std::vector<Actor*> heirs;
+  std::vector<const Structure*> structures;
+  for (Actor& piece : pieces) {
+    if (!piece.stress.breakable) continue;
+    heirs.push_back(&piece);
+    structures.push_back(&piece.structure);
+  }
+  std::vector<StressCachePtr> parts = memory->divide(structures);
+  for (std::size_t i = 0; i < heirs.size(); ++i)
+    heirs[i]->stress.memory = parts[i] ? std::move(parts[i]) : memory;
+}
 
 DrawnConvexes drawn_convexes(const Actor& actor, std::span<const ConvexSlot> slots) {
   DrawnConvexes drawn_before;
@@ -222,6 +236,7 @@ std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, Bre
     keys.push_back(pieces.add(world, piece, is_hinged(edit, number), parent, motion));
   }
   note_exposed(world, parent.structure, edit, motion, keys);
+  share_stress_memory(parent.stress.memory, pieces.actors);
   world.meshes.add_to(pieces.actors, drawn_before);
   const Vec3 before = momentum_of(world, std::span(&parent, 1));
   const double before_J = kinetic_J_of(world, std::span(&parent, 1));

@@ -140,7 +140,9 @@ struct Shape {
   Vec3f center = Vec3f::Zero();
   Vec3f normal = Vec3f::UnitY();
   bool facet = false;  ///< The hull is a triangle of a surface that collides with its front only.
-  std::array<Eigen::Vector2f, 3> bends = {};  ///< (cos, sin) of the angle at each edge.
+  std::array<Eigen::Vector2f, 3> bends = {
+      Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(),
+      Eigen::Vector2f::Zero()};  ///< (cos, sin) of the angle at each edge.
   Hull hull;
 };
 
