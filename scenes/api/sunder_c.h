@@ -72,6 +72,7 @@ SUNDER_API const char* sunder_version(void);
 /// of sunder_set_allocator(), and must not call functions of this interface. The memory is aligned
 /// as by malloc(); null means that there is none.
 typedef void* (*SunderAlloc)(size_t bytes, void* user);
+/// Function that replaces free().
 typedef void (*SunderFree)(void* memory, void* user);
 
 /// Sets the functions that provide the memory which this interface keeps: the tables of handles,
@@ -86,6 +87,7 @@ SUNDER_API SunderResult sunder_set_allocator(SunderAlloc allocate, SunderFree re
 // Values
 // ---------------------------------------------------------------------------------------------
 
+/// A vector, or a point.
 typedef struct SunderVec3 {
   double x, y, z;
 } SunderVec3;
@@ -319,6 +321,7 @@ typedef struct SunderAssetInfo {
   SunderVec3 box_min, box_max;  ///< In R.
   bool anchored;                ///< True: solids of it are static.
 } SunderAssetInfo;
+/// Tells figures of an asset.
 SUNDER_API SunderResult sunder_asset_info(SunderAsset asset, SunderAssetInfo* info);
 
 // ---------------------------------------------------------------------------------------------
@@ -347,6 +350,7 @@ typedef struct SunderSolidDef {
 /// Returns a solid at rest at the origin that collides with everything.
 SUNDER_API SunderSolidDef sunder_default_solid_def(void);
 
+/// A solid ball, which does not break.
 typedef struct SunderBallDef {
   uint32_t cookie;  ///< Set by sunder_default_ball_def().
   double radius_m;
@@ -446,12 +450,16 @@ typedef struct SunderDriveDef {
 /// Returns a motor without bodies or velocities, from now on, with 1e6 N and 1e6 N m.
 SUNDER_API SunderDriveDef sunder_default_drive_def(void);
 
+/// Adds a ball that appears at a time. SUNDER_ERROR_ARGUMENT if the ball is invalid.
 SUNDER_API SunderResult sunder_world_shoot(SunderWorld world, const SunderShotDef* shot);
+/// Adds an explosion.
 SUNDER_API SunderResult sunder_world_blast(SunderWorld world, const SunderBlastDef* blast);
+/// Adds a motor. SUNDER_ERROR_HANDLE if one of its bodies does not exist.
 SUNDER_API SunderResult sunder_world_drive(SunderWorld world, const SunderDriveDef* drive);
 
 /// Removes a body, with its joints.
 SUNDER_API SunderResult sunder_world_remove_body(SunderWorld world, SunderBody body);
+/// Removes a joint.
 SUNDER_API SunderResult sunder_world_remove_joint(SunderWorld world, SunderJoint joint);
 /// Sets the pose and velocities of a body that is not anchored, and wakes it. Speeds are at most
 /// 1e9.
@@ -516,6 +524,7 @@ typedef struct SunderBodyInfo {
   SunderFilter filter;
   char name[SUNDER_NAME_SIZE];  ///< That of its root; may be empty.
 } SunderBodyInfo;
+/// Describes a body.
 SUNDER_API SunderResult sunder_world_body(SunderWorld world, SunderBody body, SunderBodyInfo* info);
 
 /// Arrays of the caller's for all bodies, ascending by key; null arrays are not filled. Positions
@@ -670,6 +679,7 @@ typedef struct SunderReport {
   uint32_t aged;             ///< Fragments turned into debris to keep within limits.
   uint32_t joints_lost;
 } SunderReport;
+/// Tells figures of the last step.
 SUNDER_API SunderResult sunder_world_report(SunderWorld world, SunderReport* report);
 
 /// Computes the hash of the present state: poses, velocities and flags of all bodies, debris and
@@ -728,12 +738,14 @@ enum {
   SUNDER_LOOK_FILE = 2       ///< From here on: an appearance of the mesh file.
 };
 
+/// A vertex of a mesh.
 typedef struct SunderVertex {
   float position[3];  ///< In the frame of the mesh, in m.
   float normal[3];    ///< Unit.
   uint32_t look;      ///< SUNDER_LOOK_...
 } SunderVertex;
 
+/// Vertices and triangles of one convex or ball.
 typedef struct SunderMesh {
   const SunderVertex* vertices;
   uint32_t vertex_count;
