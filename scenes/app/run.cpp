@@ -11,6 +11,7 @@
 #include <ctime>
 
 #include "engine/base/check.h"
+#include "engine/world/simulation.h"
 
 namespace sunder::app {
 namespace {
@@ -81,12 +82,16 @@ int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
   return caught == 0 ? 0 : 128 + caught;
 }
 
-std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options) {
+World make_world(Scene scene, scenes::SimulationOptions options) {
   options.cases_folder = "sunder-cases";
   options.warn = [](const std::string& warning) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   };
-  return scenes::make_simulation(std::move(scene), options);
+  return scenes::make_world(std::move(scene), options);
+}
+
+std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options) {
+  return std::make_unique<Simulation>(app::make_world(std::move(scene), std::move(options)));
 }
 
 int last_frame(const Scene& scene, int wanted, const std::string& option) {

@@ -13,8 +13,10 @@
 
 namespace sunder::app {
 
-/// Makes the simulation of a scene. Warnings go to stderr, and case files of failed breaks to
+/// Makes the world of a scene. Warnings go to stderr, and case files of failed breaks to
 /// sunder-cases/, whatever `options` has for them.
+World make_world(Scene scene, scenes::SimulationOptions options = {});
+/// Makes the simulation of the world of a scene.
 std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options = {});
 /// Returns the index of the last frame: `wanted`, or the last of the scene if that is negative.
 /// Throws InputError that begins with `option` if the scene ends before.

@@ -8,6 +8,7 @@
 #include "engine/io/recording/recording_verifier.h"
 #include "engine/io/statistics.h"
 #include "engine/io/trace_file.h"
+#include "engine/world/simulation.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -28,8 +29,9 @@ int simulate(const SimulateOptions& options) {
   Statistics statistics(scenes::run_info(scene, options.load.preset));
   Progress progress("simulate " + scene.name, last, options.quiet);
   StateHash hash;
-  const auto simulation = make_simulation(std::move(scene), {.count_loops = options.count_threads});
-  FramesUntil frames(*simulation, last);
+  Simulation simulation(make_world(std::move(scene), {.count_loops = options.count_threads}));
+  simulation.world().report_hits(options.hits_m_s);
+  FramesUntil frames(simulation, last);
   std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
   std::optional<RecordingReader> recording;
   std::optional<RecordingVerifier> verifier;
@@ -40,7 +42,7 @@ int simulate(const SimulateOptions& options) {
   std::optional<RecordingWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
   std::optional<EventLog> events;
-  if (!options.events.empty()) sinks.push_back(&events.emplace(options.events));
+  if (!options.events.empty()) sinks.push_back(&events.emplace(options.events, simulation.world()));
   if (!options.trace.empty()) start_trace();
   const int exit_code = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {
