@@ -549,6 +549,11 @@ typedef struct SunderQuery {
   uint32_t mask;       ///< A body is found if its filter's category has a bit in this mask.
   bool ground;         ///< False: the ground is not found.
   SunderBody ignored;  ///< A body that is not found, such as one that casts; SUNDER_NO_KEY: none.
+  /// Called for bodies that the query meets, once or more for each, by the thread that asks; a body
+  /// for which it returns false is not found. Null: all are found. It must neither throw nor call
+  /// functions for this world. `accepts_user` is passed on.
+  bool (*accepts)(SunderBody body, void* accepts_user);
+  void* accepts_user;
 } SunderQuery;
 
 /// Returns a query that finds everything.
@@ -728,14 +733,17 @@ typedef struct SunderFrame {
   uint32_t debris_count;
   const SunderDust* dust;
   uint32_t dust_count;
-  uint32_t mesh_count;  ///< Meshes have indices below this.
+  uint32_t mesh_count;        ///< Meshes have indices below this.
+  uint32_t appearance_count;  ///< Appearances have indices below this.
 } SunderFrame;
 
 /// Appearance of a vertex.
 enum {
   SUNDER_LOOK_SURFACE = 0,   ///< The material's surface.
   SUNDER_LOOK_INTERIOR = 1,  ///< The material's interior: a face that a break made.
-  SUNDER_LOOK_FILE = 2       ///< From here on: an appearance of the mesh file.
+  /// From here on: an appearance of the mesh file; sunder_world_appearance() has it by the index
+  /// `look` - SUNDER_LOOK_FILE.
+  SUNDER_LOOK_FILE = 2
 };
 
 /// A vertex of a mesh.
@@ -752,7 +760,29 @@ typedef struct SunderMesh {
   const uint32_t* indices;  ///< Three for each triangle, counter-clockwise seen from outside.
   uint32_t index_count;
   SunderMaterial material;
+  /// Texture coordinates u and v of each vertex, also of faces that a break made; null if no
+  /// texture needs them.
+  const float* uvs;
 } SunderMesh;
+
+/// An image as the bytes of its PNG or JPEG file, repeated beyond its edges.
+typedef struct SunderImage {
+  const void* bytes;  ///< Null: there is none.
+  size_t size;        ///< Number of bytes.
+} SunderImage;
+
+/// The appearance of a face as its mesh file defines it, with parameters as in glTF.
+typedef struct SunderAppearance {
+  float color[3];       ///< Linear RGB, multiplied by `picture`.
+  SunderImage picture;  ///< Base colour texture.
+  bool v_from_bottom;   ///< True: v = 0 is the bottom row of an image (OBJ); false: the top (glTF).
+  SunderImage relief;   ///< Normal map, or a bump map if it is grey.
+  float normal_scale;   ///< Factor on the slopes of `relief`.
+  bool has_gloss;       ///< False: diffuse colour only.
+  float roughness;      ///< 0 (mirror) to 1 (rough).
+  float metallic;       ///< 0 (dielectric) to 1 (metal).
+  SunderImage gloss;    ///< Green scales roughness, blue scales metallic.
+} SunderAppearance;
 
 /// Tells what there is to draw. The arrays, and those of meshes, are valid until the next call of
 /// sunder_world_frame() for this world, or until it is destroyed; those without elements are null.
@@ -760,6 +790,10 @@ SUNDER_API SunderResult sunder_world_frame(SunderWorld world, SunderFrame* frame
 /// Tells the vertices and triangles of a mesh of the last frame of sunder_world_frame().
 /// SUNDER_ERROR_ARGUMENT if there is no frame or no such mesh, or if no body is drawn with it.
 SUNDER_API SunderResult sunder_world_mesh(SunderWorld world, uint32_t mesh, SunderMesh* out);
+/// Describes an appearance of the last frame of sunder_world_frame(), whose images are valid as
+/// long as its arrays. SUNDER_ERROR_ARGUMENT if there is no frame or no such appearance.
+SUNDER_API SunderResult sunder_world_appearance(SunderWorld world, uint32_t index,
+                                                SunderAppearance* appearance);
 
 #ifdef __cplusplus
 }
