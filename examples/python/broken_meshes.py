@@ -20,8 +20,10 @@ import multiprocessing
 import multiprocessing.pool
 import os
 import shutil
+import signal
 import socket
 import sys
+import threading
 from pathlib import Path
 from typing import NamedTuple
 
@@ -100,17 +102,20 @@ def report(task, pieces=0, error=None):
         print(f"{task.folder}: {task.mesh}: {error}", file=sys.stderr, flush=True)
 
 
+def outcome(task):
+    """Makes a task. Returns the arguments of report() for it."""
+    try:
+        return {"pieces": make(task)}
+    except Exception as error:
+        return {"error": str(error)}
+
+
 def serve(pipe):
     """Makes the tasks that come through a pipe, until its other end is closed."""
-    while True:
-        try:
-            task = pipe.recv()
-        except EOFError:
-            return
-        try:
-            pipe.send({"pieces": make(task)})
-        except Exception as error:
-            pipe.send({"error": str(error)})
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # for the process at the other end
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            pipe.send(outcome(pipe.recv()))
 
 
 def run_on_processes(tasks, count):
@@ -125,6 +130,7 @@ def run_on_processes(tasks, count):
         return pipe
 
     waiting = iter(tasks)
+    stopped = threading.Event()
 
     def feed(_):
         pipe = None
@@ -134,11 +140,17 @@ def run_on_processes(tasks, count):
                 pipe.send(task)
                 report(task, **pipe.recv())
             except (EOFError, OSError):
+                if stopped.is_set():
+                    return
                 report(task, error="its process was lost; run again to make it")
                 pipe = None
 
-    with multiprocessing.pool.ThreadPool(count) as threads:
-        threads.map(feed, range(count), chunksize=1)
+    try:
+        with multiprocessing.pool.ThreadPool(count) as threads:
+            threads.map(feed, range(count), chunksize=1)
+    except KeyboardInterrupt:
+        stopped.set()
+        raise
 
 
 def import_dask():
@@ -250,4 +262,7 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit("stopped; run again to make the rest")

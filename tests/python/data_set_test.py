@@ -35,9 +35,9 @@ def contents(folder):
             for file in folder.rglob("*") if file.is_file()}
 
 
-def start(command, **environment):
+def start(command, start_new_session=False, **environment):
     return subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, cwd=ROOT,
-                            stderr=subprocess.PIPE, text=True,
+                            stderr=subprocess.PIPE, text=True, start_new_session=start_new_session,
                             env={**os.environ, "PYTHON": sys.executable, **environment})
 
 
@@ -212,6 +212,18 @@ class DataSet(unittest.TestCase):
         self.assertIn("box:1,1: ", out)
         self.assertIn("1 meshes done, 2 missing", out)
         self.assertEqual([folder.name for folder in self.out.iterdir()], ["00002_001"])
+
+    def test_stops_when_it_is_interrupted(self):
+        process = start(self.command("--variants", "500"), start_new_session=True)
+        deadline = time.monotonic() + 120
+        while not list(self.out.glob("*_00?")):
+            self.assertLess(time.monotonic(), deadline, "no mesh is made")
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)
+        out, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1)
+        self.assertEqual(errors, "stopped; run again to make the rest\n")
+        self.assertNotIn("missing", out)
 
     def test_bad_options_are_refused(self):
         for shard in "0/3", "4/3", "2", "a/b", "-1/3", "1/0":
