@@ -13,12 +13,14 @@ esac
 cd "$(dirname "$0")"
 source cmake/setup.sh
 
-# Before the build is configured, which leaves the Python module out without them.
+# Before the build is configured, which leaves the Python module and the reference out without them.
 install_optional pybind11-dev python3-dev python3-numpy python3-venv
+install_optional doxygen
 set_up
 install_optional clang-format-14
 install_optional libbullet-dev libode-dev
 install_optional parallel
+install_optional python3-distributed
 
 say "Building everything"
 cmake --build --preset release

@@ -31,12 +31,15 @@ class Renderer {
   Image draw(const Frame& frame, const Frame* before = nullptr);
   /// Returns the layers of the image drawn last, as named in the options.
   const std::vector<Layer>& layers() const;
+  /// Returns the options that the renderer was made with.
   const RenderOptions& options() const;
   /// Returns the context, driver and version, for logs.
   std::string description() const;
   /// Returns warnings about the last draw(): textures that are left out or scaled down.
   std::vector<std::string> warnings() const;
+  /// Returns the width of the images in pixels.
   int width() const;
+  /// Returns the height of the images in pixels.
   int height() const;
   /// Returns the times of the passes in order; empty unless options.time_passes is set.
   const std::vector<PassTime>& pass_times() const;

@@ -10,6 +10,7 @@
 
 namespace sunder::render {
 
+/// Size, view and layers of images.
 struct RenderOptions {
   int width = 1280;
   int height = 720;

@@ -40,6 +40,7 @@ std::vector<Material> builtin_materials();
 /// Returns the material of this name. Throws InputError that lists the materials if there is none.
 MaterialIndex material_named(const Scene& scene, const std::string& name);
 
+/// A scene that comes with the program.
 struct CatalogEntry {
   std::string name;
   std::filesystem::path file;

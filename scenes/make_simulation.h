@@ -16,6 +16,7 @@
 
 namespace sunder::scenes {
 
+/// Options of a run that do not change its results.
 struct SimulationOptions {
   int threads = 0;  ///< Threads of the simulation; 0: as many as the process has set.
   /// Folder for case files of breaks whose parts do not sum to the volume before, for

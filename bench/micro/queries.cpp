@@ -2,55 +2,23 @@
 // in which the heap moves, with and without a hundred rays.
 //
 //   build/micro_bench --benchmark_filter=queries/
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "bench/heap.h"
 #include "engine/base/random.h"
-#include "engine/geometry/hull.h"
-#include "scenes/file/make_compound.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
 
 namespace sunder::scenes {
 namespace {
 
-/// Returns a world of `count` hulls of 8 to 16 vertices, 0.1 to 0.5 m in size, that have fallen
-/// into a heap.
-World heap(int count) {
-  Scene scene;
-  scene.materials = builtin_materials();
-  Random random(1, 0);
-  const int side = static_cast<int>(std::cbrt(count)) + 1;
-  for (int i = 0; i < count; ++i) {
-    std::vector<Vec3> points;
-    const double size_m = random.uniform(0.1, 0.5);
-    const int vertices = 8 + static_cast<int>(random.uniform(0, 9));
-    for (int k = 0; k < vertices; ++k) points.push_back(0.5 * size_m * random.direction());
-    Part part;
-    part.polyhedron = make_hull(points);
-    part.material = material_named(scene, "steel");
-    Solid solid;
-    solid.compound = make_compound({part});
-    solid.X_WR.position = 0.5 * Vec3(i % side, 1 + i / (side * side), i / side % side);
-    scene.solids.push_back(std::move(solid));
-  }
-  World world = make_world(std::move(scene));
-  world.set_threads(1);
-  for (int i = 0; i < 120; ++i) world.step(1.0 / 60);
-  return world;
-}
+using bench::ray_into;
 
-/// Returns the start and the direction of a ray into the heap.
-std::pair<Vec3, Vec3> ray_into(const World& world, Random& random) {
-  const BodyArrays& bodies = world.bodies();
-  const Vec3 to = bodies.position_W[random.bits() % bodies.key.size()];
-  const Vec3 from = to + 20 * (random.direction() + 1.2 * Vec3::UnitY()).normalized();
-  return {from, to - from};
-}
+World heap(int count) { return bench::settled(bench::heap_scene(count)); }
 
 void first_hit(benchmark::State& state, double radius_m) {
   const World world = heap(static_cast<int>(state.range(0)));

@@ -3,12 +3,16 @@
 // results that no other beats in both time and depth.
 //
 //   peers_bench [--hulls N] [--frames N] [--engine sunder|bullet|ode] [--defaults]
+//   peers_bench --rays N [--hulls N] [--write FILE]
+//
+// With --rays, ray casts of ours and of Bullet instead (rays.h).
 #include <cstdio>
 #include <cstring>
 #include <string>
 
 #include "bench/peers/peer.h"
 #include "bench/peers/penetration.h"
+#include "bench/peers/rays.h"
 #include "bench/piles.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/parallel.h"
@@ -57,6 +61,8 @@ struct Options {
   int frames = 600;
   std::string engine = "all";
   bool defaults = false;
+  int rays = 0;       ///< Above 0: rays are cast instead.
+  std::string write;  ///< File for the rays; empty: none.
 };
 
 struct Result {
@@ -180,8 +186,18 @@ int main(int argc, char** argv) {
                           {{"--hulls", &options.hulls, "N"},
                            {"--frames", &options.frames, "N"},
                            {"--engine", &options.engine, "sunder|bullet|ode"},
-                           {"--defaults", &options.defaults}},
-                          [&] { return options.hulls > 0 && options.frames > 0; }))
+                           {"--defaults", &options.defaults},
+                           {"--rays", &options.rays, "N"},
+                           {"--write", &options.write, "FILE"}},
+                          [&] {
+                            return options.hulls > 0 && options.frames > 0 && options.rays >= 0 &&
+                                   (options.write.empty() || options.rays > 0);
+                          }))
     return sunder::kUsageError;
-  sunder::bench::run_all(options);
+  if (options.rays > 0) {
+    sunder::set_threads(1);
+    sunder::bench::compare_rays(options.hulls, options.rays, options.write);
+  } else {
+    sunder::bench::run_all(options);
+  }
 }

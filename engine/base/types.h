@@ -36,6 +36,7 @@ struct Pose {
   Pose operator*(const Pose& inner) const {
     return {*this * inner.position, rotation * inner.rotation};
   }
+  /// Returns the transform back.
   Pose inverse() const {
     const Quat back = rotation.conjugate();
     return {back * -position, back};
@@ -50,17 +51,23 @@ struct Box {
   Vec3 min = Vec3::Constant(1e300);
   Vec3 max = Vec3::Constant(-1e300);
 
+  /// Makes the box large enough for a point.
   void extend(const Vec3& point) {
     min = min.cwiseMin(point);
     max = max.cwiseMax(point);
   }
+  /// Makes the box large enough for another.
   void extend(const Box& other) {
     min = min.cwiseMin(other.min);
     max = max.cwiseMax(other.max);
   }
+  /// Returns true if no point is in the box.
   bool empty() const { return (min.array() > max.array()).any(); }
+  /// Returns the middle of a box that is not empty.
   Vec3 center() const { return 0.5 * (min + max); }
+  /// Returns the lengths of the sides of a box that is not empty.
   Vec3 extent() const { return max - min; }
+  /// Returns true if the boxes have a point in common.
   bool overlaps(const Box& other) const {
     return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
   }
@@ -74,7 +81,9 @@ struct Index {
   std::uint32_t value = kNone;
 
   constexpr Index() = default;
+  /// Makes the index of element `v`.
   constexpr explicit Index(std::size_t v) : value(static_cast<std::uint32_t>(v)) {}
+  /// Returns true for the index of no element.
   constexpr bool none() const { return value == kNone; }
   constexpr auto operator<=>(const Index&) const = default;
   static constexpr auto fields(auto& self) { return std::tie(self.value); }
@@ -87,6 +96,7 @@ struct Id {
   std::uint32_t slot = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t generation = 0;
 
+  /// Returns true for the id of no object.
   constexpr bool none() const { return slot == std::numeric_limits<std::uint32_t>::max(); }
   constexpr auto operator<=>(const Id&) const = default;
 };

@@ -33,7 +33,9 @@ struct Plane {
 struct PlaneId {
   std::uint64_t value = 0;
 
+  /// Returns the id of the other side of the plane.
   constexpr PlaneId opposite() const { return {value ^ 1}; }
+  /// Returns true for the id of no plane.
   constexpr bool none() const { return value == 0; }
   constexpr auto operator<=>(const PlaneId&) const = default;
 };
@@ -62,6 +64,7 @@ enum class FaceKind : std::uint8_t { kSurface, kInterior };
 /// directed edge has its opposite exactly once. The corners of face f are corner_count elements of
 /// `corners` and `corner_normals` from first_corner on.
 struct ConvexPolyhedron {
+  /// A polygon in a plane.
   struct Face {
     Plane plane;
     PlaneId id;
@@ -75,7 +78,9 @@ struct ConvexPolyhedron {
   std::vector<std::uint32_t> corners;  ///< Vertex index of each corner.
   std::vector<Vec3f> corner_normals;   ///< Unit shading normal of each corner.
 
+  /// Returns true if there is no face.
   bool empty() const { return faces.empty(); }
+  /// Returns the vertex indices of face `f`.
   std::span<const std::uint32_t> face_corners(std::size_t f) const {
     return std::span(corners).subspan(faces[f].first_corner, faces[f].corner_count);
   }
@@ -102,6 +107,7 @@ ConvexPolyhedron transformed(const ConvexPolyhedron& convex, const Pose& X_RQ);
 
 /// The method that fits a convex to the points it encloses (approximate_hull.h).
 struct Fit {
+  /// Bounding box, polytope of 14 or 26 fixed directions, or simplified hull.
   enum class Kind : std::uint8_t { kAabb, k14Dop, k26Dop, kHull };
   Kind kind = Kind::k26Dop;
   std::uint32_t vertex_count = 24;  ///< Number of vertices of the hull, for kHull.

@@ -42,12 +42,39 @@ Json event_of(const Frame& frame, const BreakEvent& at) {
   event["new_area_m2"] = at.new_area_m2;
   event["pieces"] = at.pieces;
   event["children"] = at.child_keys;
+  const auto rest = std::ranges::lower_bound(frame.bodies, at.parent_key, {}, &FrameBody::key);
+  if (rest != frame.bodies.end() && rest->key == at.parent_key) event["rest_kg"] = rest->mass_kg;
+  return event;
+}
+
+Json event_of(const Frame& frame, const Hit& hit) {
+  Json event = new_event("hit", frame.time_s, hit.a.value);
+  if (hit.b.none()) {
+    event["other"] = nullptr;
+  } else {
+    event["other"] = hit.b.value;
+  }
+  event["point_m"] = numbers(hit.point_W);
+  event["normal"] = numbers(hit.normal_W);
+  event["speed_m_s"] = hit.speed_m_s;
+  event["mass_kg"] = hit.mass_kg;
+  return event;
+}
+
+/// Returns the event of lost joints, of which only those of the scene and of calls have keys.
+Json event_of(const Frame& frame, const std::vector<JointKey>& lost) {
+  Json event = {{"time_s", frame.time_s},
+                {"event", "joints lost"},
+                {"count", frame.report.joints_lost},
+                {"joints", Json::array()}};
+  for (const JointKey key : lost) event["joints"].push_back(key.value);
   return event;
 }
 
 }  // namespace
 
-EventLog::EventLog(const std::filesystem::path& path) : path_(path), out_(create_file(path)) {}
+EventLog::EventLog(const std::filesystem::path& path, const World& world)
+    : path_(path), out_(create_file(path)), world_(world) {}
 
 void EventLog::take(const FramePtr& frame) {
   std::string lines;
@@ -55,6 +82,8 @@ void EventLog::take(const FramePtr& frame) {
     lines += event.dump() + "\n";
     ++events_;
   };
+  const Events& events = world_.events();
+  for (const Hit& hit : events.hits) put(event_of(*frame, hit));
   std::set<std::uint64_t> broken;
   for (const BreakEvent& at : frame->breaks) {
     put(event_of(*frame, at));
@@ -80,8 +109,7 @@ void EventLog::take(const FramePtr& frame) {
     if (gone && !broken.contains(it->first)) put(new_event("disappear", frame->time_s, it->first));
     it = gone ? known_.erase(it) : std::next(it);
   }
-  if (const std::uint32_t lost = frame->report.joints_lost; lost > 0)
-    put({{"time_s", frame->time_s}, {"event", "joints lost"}, {"count", lost}});
+  if (frame->report.joints_lost > 0) put(event_of(*frame, events.joints_lost));
   out_ << lines;
   if (!out_) throw FileError(path_.string() + ": cannot be written; is the disk full?");
 }

@@ -8,16 +8,19 @@
 #include <string>
 
 #include "engine/model/frame.h"
+#include "engine/world/world.h"
 
 namespace sunder {
 
-/// Writes a line of JSON for each event to a file: bodies that appear, break, disappear, fall
-/// asleep or wake, and joints that are lost. docs/json.md lists the members. Equal runs give equal
-/// files.
+/// Writes a line of JSON for each event of a world to a file: hits, if the world reports them,
+/// bodies that break, appear, fall asleep, wake or disappear, and joints that are lost. Those are
+/// the events of World::events(), with the state of each body that appears. docs/json.md lists the
+/// members. Equal runs give equal files.
 class EventLog final : public FrameSink {
  public:
-  /// Creates the file, and its folder; throws FileError if it cannot be written.
-  explicit EventLog(const std::filesystem::path& path);
+  /// Creates the file, and its folder; throws FileError if it cannot be written. Frames that are
+  /// taken must be those of `world` after each step, and before the next one.
+  EventLog(const std::filesystem::path& path, const World& world);
   /// Throws FileError if the disk is full.
   void take(const FramePtr& frame) override;
   void finish() override;
@@ -31,6 +34,7 @@ class EventLog final : public FrameSink {
 
   std::filesystem::path path_;
   std::ofstream out_;
+  const World& world_;
   std::map<std::uint64_t, Known> known_;  ///< Bodies of the previous frame by key.
   std::uint64_t events_ = 0;
 };

@@ -19,6 +19,7 @@ class StateHash final : public FrameSink {
   void take(const FramePtr& frame) override;
   /// Returns 16 hexadecimal digits: the hash over the first `frames` frames, at most all of them.
   std::string hex(std::size_t frames = SIZE_MAX) const;
+  /// Returns the hash of each frame.
   const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
 
  private:
@@ -54,6 +55,7 @@ double quantile(std::vector<double> values, double q);
 /// Collects the reports of all frames. Timings leave out the first frame, which simulates no time.
 class Statistics final : public FrameSink {
  public:
+  /// Collects frames of the run that `info` describes.
   explicit Statistics(RunInfo info);
   ~Statistics() override;
   void take(const FramePtr& frame) override;

@@ -12,6 +12,7 @@ struct CollisionFilter {
   std::uint32_t mask = 0xffffffff;
 
   bool operator==(const CollisionFilter&) const = default;
+  /// Returns true if bodies of the two filters collide.
   bool collides_with(const CollisionFilter& other) const {
     return (category & other.mask) != 0 && (other.category & mask) != 0;
   }

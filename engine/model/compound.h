@@ -26,6 +26,7 @@ struct Convex {
   /// Pose of the texture frame T in R: R as it was before the solid was bent.
   Pose X_RT;
 
+  /// Returns true if the convex is drawn as its polyhedron.
   bool is_internal() const { return !visual; }
 };
 using ConvexPtr = std::shared_ptr<const Convex>;

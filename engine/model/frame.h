@@ -26,6 +26,7 @@ namespace sunder {
 /// before the solid was bent. Positions are floats relative to `origin_T`, so that precision does
 /// not depend on the distance from the solid's origin; procedural textures use origin_T + position.
 struct Mesh {
+  /// A vertex in the texture frame, relative to `origin_T`.
   struct Vertex {
     Vec3f position = Vec3f::Zero();
     Vec3f normal = Vec3f::UnitY();

@@ -9,6 +9,7 @@
 
 namespace sunder {
 
+/// Relative motion that a joint permits.
 enum class JointKind : std::uint8_t {
   kBall,      ///< The anchors coincide.
   kHinge,     ///< The anchors coincide and the axes stay parallel.

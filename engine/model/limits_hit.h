@@ -30,6 +30,7 @@ enum class Limit : std::uint8_t {
 inline constexpr std::size_t kLimits =
     std::size_t{1} + static_cast<std::size_t>(Limit::kPlanarSteps);
 
+/// Texts that explain a limit to the user.
 struct LimitText {
   const char* name;
   const char* counted;  ///< What one count is, and its effect.
@@ -85,6 +86,7 @@ inline constexpr std::array<LimitText, kLimits> kLimitTexts = {{
 /// Number of times that each limit was reached.
 class LimitsHit {
  public:
+  /// Returns the count of a limit.
   std::uint32_t& operator[](Limit limit) { return counts_[static_cast<std::size_t>(limit)]; }
   std::uint32_t operator[](Limit limit) const { return counts_[static_cast<std::size_t>(limit)]; }
 

@@ -36,6 +36,7 @@ struct DebrisEmission {
 
 /// Parameters of a fracture pattern; fracture/pattern/pattern.h describes each kind.
 struct PatternSpec {
+  /// Arrangement of the cells; kNone: unbreakable.
   enum class Kind : std::uint8_t { kNone, kVoronoi, kWeb, kRadial, kBrick, kSlabs, kGrid, kFile };
   Kind kind = Kind::kNone;
   /// Voronoi: number of sites; radial: of sectors; slabs: of slabs; grid: of cells per side.
@@ -107,7 +108,9 @@ struct Material {
   Look interior;
   DebrisEmission crumbling;
 
+  /// Returns true if impacts break the material.
   bool breakable() const { return pattern.kind != PatternSpec::Kind::kNone; }
+  /// Returns true if the material bends before it tears.
   bool yields() const { return yield_Pa > 0; }
   /// Returns the speed of shear waves, √(E / 2.4 ρ), for a Poisson's ratio of 0.2.
   double shear_wave_m_s() const { return std::sqrt(youngs_Pa / (2.4 * density_kg_m3)); }
@@ -134,6 +137,7 @@ struct Material {
   double strain_energy_J(double limit_Pa, double volume_m3) const {
     return limit_Pa * limit_Pa * volume_m3 / (2 * youngs_Pa);
   }
+  /// Returns true if a stress limit is set, so that steady loads can break the material.
   bool breaks_by_load() const {
     return min_stress_limit_Pa() < std::numeric_limits<double>::infinity();
   }

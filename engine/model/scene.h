@@ -32,6 +32,7 @@ struct Solid {
   std::uint64_t user_data = 0;
 };
 
+/// A solid ball, which does not break.
 struct Ball {
   std::string name;
   double radius_m = 0.5;
@@ -42,9 +43,11 @@ struct Ball {
   std::uint64_t user_data = 0;
 };
 
+/// Returns the volume of a ball.
 inline double ball_volume_m3(double radius_m) {
   return 4.0 / 3.0 * std::numbers::pi * radius_m * radius_m * radius_m;
 }
+/// Returns the mass of a ball of one of the materials.
 inline double ball_mass_kg(const Ball& ball, std::span<const Material> materials) {
   return materials[ball.material.value].density_kg_m3 * ball_volume_m3(ball.radius_m);
 }
@@ -173,6 +176,7 @@ struct Limits {
   bool passed_impacts = true;
 };
 
+/// All that a run depends on: solids, balls, ground, joints, materials, script and settings.
 struct Scene {
   std::string name;
   std::string description;

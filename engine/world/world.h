@@ -44,6 +44,7 @@ class Asset {
  public:
   /// Throws InputError if the compound is invalid.
   explicit Asset(Compound compound);
+  /// Returns the geometry, in the rest frame.
   const Compound& compound() const;
 
  private:
@@ -138,6 +139,7 @@ struct Events {
   std::vector<JointKey> joints_lost;
 };
 
+/// A running simulation that a program acts on and asks.
 class World {
  public:
   /// Makes a world of a scene, whose script is carried out as time passes. Without `particles`
@@ -156,7 +158,9 @@ class World {
   /// not. Throws InputError if the bytes are damaged.
   World(Archive& bytes, Scene scene, std::unique_ptr<Physics> physics,
         std::unique_ptr<Breaker> breaker, std::unique_ptr<Particles> particles);
+  /// Moves a world; the other can only be assigned to or destroyed.
   World(World&&) noexcept;
+  /// Replaces this world by another, as to roll back.
   World& operator=(World&&) noexcept;
   ~World();
 
@@ -166,6 +170,7 @@ class World {
   /// Advances by a time from 1e-6 to 0.1 s, in equal steps of at most the scene's dt. Budgets of
   /// Limits that are for a frame are in proportion to the time.
   void step(double time_s);
+  /// Returns the time since the world was made.
   double time_s() const;
   /// The scene that the world was made of; bodies and materials may have been added since.
   const Scene& scene() const;
@@ -174,21 +179,28 @@ class World {
   const std::vector<Material>& materials() const;
 
   // Create. Times of actions are in seconds of the world, and may have passed.
+  /// Adds a material, for bodies that are added later.
   MaterialIndex add(const Material& material);
+  /// Adds a solid; its compound is prepared in the call.
   BodyKey add(const Solid& solid);
   /// Adds a solid at a pose, without what the asset has already.
   BodyKey add(const Asset& asset, const BodyMotion& motion, const std::string& name = "");
+  /// Adds a ball.
   BodyKey add(const Ball& ball);
   /// Joins two bodies, or a body and the world, in their present poses; `joint.a` and `joint.b`
   /// are keys.
   JointKey add(const Joint& joint);
   /// Adds a ball that appears at a time, maybe on a rope or a chain; with time 0 in the next step.
   void shoot(const Shot& shot);
+  /// Adds an explosion; with time 0 it is in the next step.
   void blast(const Blast& blast);
+  /// Adds a motor, which runs from its time on.
   void drive(const Drive& drive);
 
   // Act on bodies; the others notice in the next step.
+  /// Removes a body, with its joints.
   void remove(BodyKey body);
+  /// Removes a joint.
   void remove(JointKey joint);
   /// Sets the pose and velocities of a body that is not anchored, and wakes it.
   void set_motion(BodyKey body, const BodyMotion& motion);
@@ -210,10 +222,14 @@ class World {
   void set_filter(BodyKey body, CollisionFilter filter);
 
   // Ask. Queries see the present poses, whatever has changed since the last step.
+  /// Returns true if the body is in the world.
   bool contains(BodyKey body) const;
+  /// Returns true if the joint is in the world.
   bool contains(JointKey joint) const;
   std::size_t size() const;  ///< Number of bodies, the ground not included.
+  /// Returns a body.
   BodyView body(BodyKey body) const;
+  /// Returns all bodies as arrays, which are filled at the first call after a change of the world.
   const BodyArrays& bodies() const;
   /// Returns the contacts of a body that carry load.
   std::vector<Contact> contacts(BodyKey body) const;
@@ -227,6 +243,7 @@ class World {
   /// Returns what overlaps a ball or a box, sorted.
   std::vector<Overlap> overlap(const Vec3& center_W, double radius_m,
                                const QueryFilter& filter = {}) const;
+  /// Returns what overlaps a box along the axes of the world, sorted.
   std::vector<Overlap> overlap(const Box& box_W, const QueryFilter& filter = {}) const;
 
   /// Returns the events of the last step; valid until the next step.

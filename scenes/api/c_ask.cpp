@@ -15,8 +15,12 @@ QueryFilter query_filter(const SunderQuery* query) {
   need_cookie(query->cookie, kQueryCookie, "query", "sunder_default_query");
   filter.mask = query->mask;
   filter.ground = query->ground;
-  if (query->ignored.key != SUNDER_NO_KEY)
-    filter.accepts = [ignored = key_of(query->ignored)](BodyKey key) { return key != ignored; };
+  if (query->accepts || query->ignored.key != SUNDER_NO_KEY) {
+    filter.accepts = [query = *query](BodyKey key) {
+      if (key == key_of(query.ignored)) return false;
+      return !query.accepts || query.accepts(body_of(key), query.accepts_user);
+    };
+  }
   return filter;
 }
 
@@ -151,7 +155,9 @@ SunderResult sunder_world_bodies(SunderWorld world, const SunderBodyArrays* arra
   });
 }
 
-SunderQuery sunder_default_query() { return {kQueryCookie, 0xffffffffu, true, {SUNDER_NO_KEY}}; }
+SunderQuery sunder_default_query() {
+  return {kQueryCookie, 0xffffffffu, true, {SUNDER_NO_KEY}, nullptr, nullptr};
+}
 
 SunderResult sunder_world_cast(SunderWorld world, SunderVec3 from_W, SunderVec3 direction_W,
                                double most_m, double radius_m, const SunderQuery* query,

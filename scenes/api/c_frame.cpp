@@ -60,6 +60,22 @@ Array<SunderVertex> vertices_of(const Mesh& mesh) {
   return vertices;
 }
 
+SunderImage image_of(const EncodedImage& image) {
+  if (!image) return {nullptr, 0};
+  return {image->data(), image->size()};
+}
+
+/// Returns the frame that was taken last.
+FrameArrays& last_frame(WorldEntry& entry) {
+  if (!entry.frame) refuse("there is no frame; call sunder_world_frame() before");
+  return *entry.frame;
+}
+
+std::size_t appearance_count(const Frame& frame) {
+  return frame.appearances ? frame.appearances->size() : 0;
+}
+
+static_assert(sizeof(Eigen::Vector2f) == 2 * sizeof(float));
 static_assert(Mesh::kSurface == SUNDER_LOOK_SURFACE && Mesh::kInterior == SUNDER_LOOK_INTERIOR &&
               Mesh::kFirstAppearance == SUNDER_LOOK_FILE && kGroundKey == SUNDER_NO_KEY);
 
@@ -86,15 +102,15 @@ SunderResult sunder_world_frame(SunderWorld world, SunderFrame* frame) {
               count_of(arrays.debris.size()),
               data_of(arrays.dust),
               count_of(arrays.dust.size()),
-              arrays.frame->meshes ? count_of(arrays.frame->meshes->size()) : 0};
+              arrays.frame->meshes ? count_of(arrays.frame->meshes->size()) : 0,
+              count_of(appearance_count(*arrays.frame))};
   });
 }
 
 SunderResult sunder_world_mesh(SunderWorld world, uint32_t mesh, SunderMesh* out) {
   return ask_world("sunder_world_mesh", world, [&](WorldEntry& entry) {
     need_pointer(out, "out");
-    if (!entry.frame) refuse("there is no frame; call sunder_world_frame() before");
-    FrameArrays& arrays = *entry.frame;
+    FrameArrays& arrays = last_frame(entry);
     const std::size_t count = arrays.frame->meshes ? arrays.frame->meshes->size() : 0;
     if (mesh >= count)
       refuse("mesh is " + std::to_string(mesh) + "; expected an index below " +
@@ -105,8 +121,35 @@ SunderResult sunder_world_mesh(SunderWorld world, uint32_t mesh, SunderMesh* out
     auto vertices = arrays.vertices.find(mesh);
     if (vertices == arrays.vertices.end())
       vertices = arrays.vertices.emplace(mesh, vertices_of(*found)).first;
-    *out = {data_of(vertices->second), count_of(vertices->second.size()),
+    *out = {data_of(vertices->second),
+            count_of(vertices->second.size()),
             found->indices.empty() ? nullptr : found->indices.data(),
-            count_of(found->indices.size()), material_of(found->material)};
+            count_of(found->indices.size()),
+            material_of(found->material),
+            found->uvs.empty() ? nullptr : found->uvs.front().data()};
+  });
+}
+
+SunderResult sunder_world_appearance(SunderWorld world, uint32_t index,
+                                     SunderAppearance* appearance) {
+  return ask_world("sunder_world_appearance", world, [&](WorldEntry& entry) {
+    need_pointer(appearance, "appearance");
+    const Frame& frame = *last_frame(entry).frame;
+    if (const std::size_t count = appearance_count(frame); index >= count)
+      refuse("index is " + std::to_string(index) + "; expected an index below " +
+             std::to_string(count));
+    const Appearance& from = (*frame.appearances)[index];
+    SunderAppearance found{};
+    copy_vector(from.color, found.color);
+    found.picture = image_of(from.picture);
+    found.v_from_bottom = from.v_from_bottom;
+    found.relief = image_of(from.relief);
+    found.normal_scale = from.normal_scale;
+    found.has_gloss = from.gloss.has_value();
+    const MetallicRoughness gloss = from.gloss.value_or(MetallicRoughness{});
+    found.roughness = gloss.roughness;
+    found.metallic = gloss.metallic;
+    found.gloss = image_of(from.gloss ? from.gloss->picture : nullptr);
+    *appearance = found;
   });
 }

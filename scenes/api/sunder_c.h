@@ -72,6 +72,7 @@ SUNDER_API const char* sunder_version(void);
 /// of sunder_set_allocator(), and must not call functions of this interface. The memory is aligned
 /// as by malloc(); null means that there is none.
 typedef void* (*SunderAlloc)(size_t bytes, void* user);
+/// Function that replaces free().
 typedef void (*SunderFree)(void* memory, void* user);
 
 /// Sets the functions that provide the memory which this interface keeps: the tables of handles,
@@ -86,6 +87,7 @@ SUNDER_API SunderResult sunder_set_allocator(SunderAlloc allocate, SunderFree re
 // Values
 // ---------------------------------------------------------------------------------------------
 
+/// A vector, or a point.
 typedef struct SunderVec3 {
   double x, y, z;
 } SunderVec3;
@@ -328,6 +330,7 @@ typedef struct SunderAssetInfo {
   SunderVec3 box_min, box_max;  ///< In R.
   bool anchored;                ///< True: solids of it are static.
 } SunderAssetInfo;
+/// Tells figures of an asset.
 SUNDER_API SunderResult sunder_asset_info(SunderAsset asset, SunderAssetInfo* info);
 
 // ---------------------------------------------------------------------------------------------
@@ -356,6 +359,7 @@ typedef struct SunderSolidDef {
 /// Returns a solid at rest at the origin that collides with everything.
 SUNDER_API SunderSolidDef sunder_default_solid_def(void);
 
+/// A solid ball, which does not break.
 typedef struct SunderBallDef {
   uint32_t cookie;  ///< Set by sunder_default_ball_def().
   double radius_m;
@@ -455,12 +459,16 @@ typedef struct SunderDriveDef {
 /// Returns a motor without bodies or velocities, from now on, with 1e6 N and 1e6 N m.
 SUNDER_API SunderDriveDef sunder_default_drive_def(void);
 
+/// Adds a ball that appears at a time. SUNDER_ERROR_ARGUMENT if the ball is invalid.
 SUNDER_API SunderResult sunder_world_shoot(SunderWorld world, const SunderShotDef* shot);
+/// Adds an explosion.
 SUNDER_API SunderResult sunder_world_blast(SunderWorld world, const SunderBlastDef* blast);
+/// Adds a motor. SUNDER_ERROR_HANDLE if one of its bodies does not exist.
 SUNDER_API SunderResult sunder_world_drive(SunderWorld world, const SunderDriveDef* drive);
 
 /// Removes a body, with its joints.
 SUNDER_API SunderResult sunder_world_remove_body(SunderWorld world, SunderBody body);
+/// Removes a joint.
 SUNDER_API SunderResult sunder_world_remove_joint(SunderWorld world, SunderJoint joint);
 /// Sets the pose and velocities of a body that is not anchored, and wakes it. Speeds are at most
 /// 1e9.
@@ -525,6 +533,7 @@ typedef struct SunderBodyInfo {
   SunderFilter filter;
   char name[SUNDER_NAME_SIZE];  ///< That of its root; may be empty.
 } SunderBodyInfo;
+/// Describes a body.
 SUNDER_API SunderResult sunder_world_body(SunderWorld world, SunderBody body, SunderBodyInfo* info);
 
 /// Arrays of the caller's for all bodies, ascending by key; null arrays are not filled. Positions
@@ -549,6 +558,11 @@ typedef struct SunderQuery {
   uint32_t mask;       ///< A body is found if its filter's category has a bit in this mask.
   bool ground;         ///< False: the ground is not found.
   SunderBody ignored;  ///< A body that is not found, such as one that casts; SUNDER_NO_KEY: none.
+  /// Called for bodies that the query meets, once or more for each, by the thread that asks; a body
+  /// for which it returns false is not found. Null: all are found. It must neither throw nor call
+  /// functions for this world. `accepts_user` is passed on.
+  bool (*accepts)(SunderBody body, void* accepts_user);
+  void* accepts_user;
 } SunderQuery;
 
 /// Returns a query that finds everything.
@@ -679,6 +693,7 @@ typedef struct SunderReport {
   uint32_t aged;             ///< Fragments turned into debris to keep within limits.
   uint32_t joints_lost;
 } SunderReport;
+/// Tells figures of the last step.
 SUNDER_API SunderResult sunder_world_report(SunderWorld world, SunderReport* report);
 
 /// Computes the hash of the present state: poses, velocities and flags of all bodies, debris and
@@ -727,29 +742,56 @@ typedef struct SunderFrame {
   uint32_t debris_count;
   const SunderDust* dust;
   uint32_t dust_count;
-  uint32_t mesh_count;  ///< Meshes have indices below this.
+  uint32_t mesh_count;        ///< Meshes have indices below this.
+  uint32_t appearance_count;  ///< Appearances have indices below this.
 } SunderFrame;
 
 /// Appearance of a vertex.
 enum {
   SUNDER_LOOK_SURFACE = 0,   ///< The material's surface.
   SUNDER_LOOK_INTERIOR = 1,  ///< The material's interior: a face that a break made.
-  SUNDER_LOOK_FILE = 2       ///< From here on: an appearance of the mesh file.
+  /// From here on: an appearance of the mesh file; sunder_world_appearance() has it by the index
+  /// `look` - SUNDER_LOOK_FILE.
+  SUNDER_LOOK_FILE = 2
 };
 
+/// A vertex of a mesh.
 typedef struct SunderVertex {
   float position[3];  ///< In the frame of the mesh, in m.
   float normal[3];    ///< Unit.
   uint32_t look;      ///< SUNDER_LOOK_...
 } SunderVertex;
 
+/// Vertices and triangles of one convex or ball.
 typedef struct SunderMesh {
   const SunderVertex* vertices;
   uint32_t vertex_count;
   const uint32_t* indices;  ///< Three for each triangle, counter-clockwise seen from outside.
   uint32_t index_count;
   SunderMaterial material;
+  /// Texture coordinates u and v of each vertex, also of faces that a break made; null if no
+  /// texture needs them.
+  const float* uvs;
 } SunderMesh;
+
+/// An image as the bytes of its PNG or JPEG file, repeated beyond its edges.
+typedef struct SunderImage {
+  const void* bytes;  ///< Null: there is none.
+  size_t size;        ///< Number of bytes.
+} SunderImage;
+
+/// The appearance of a face as its mesh file defines it, with parameters as in glTF.
+typedef struct SunderAppearance {
+  float color[3];       ///< Linear RGB, multiplied by `picture`.
+  SunderImage picture;  ///< Base colour texture.
+  bool v_from_bottom;   ///< True: v = 0 is the bottom row of an image (OBJ); false: the top (glTF).
+  SunderImage relief;   ///< Normal map, or a bump map if it is grey.
+  float normal_scale;   ///< Factor on the slopes of `relief`.
+  bool has_gloss;       ///< False: diffuse colour only.
+  float roughness;      ///< 0 (mirror) to 1 (rough).
+  float metallic;       ///< 0 (dielectric) to 1 (metal).
+  SunderImage gloss;    ///< Green scales roughness, blue scales metallic.
+} SunderAppearance;
 
 /// Tells what there is to draw. The arrays, and those of meshes, are valid until the next call of
 /// sunder_world_frame() for this world, or until it is destroyed; those without elements are null.
@@ -757,6 +799,10 @@ SUNDER_API SunderResult sunder_world_frame(SunderWorld world, SunderFrame* frame
 /// Tells the vertices and triangles of a mesh of the last frame of sunder_world_frame().
 /// SUNDER_ERROR_ARGUMENT if there is no frame or no such mesh, or if no body is drawn with it.
 SUNDER_API SunderResult sunder_world_mesh(SunderWorld world, uint32_t mesh, SunderMesh* out);
+/// Describes an appearance of the last frame of sunder_world_frame(), whose images are valid as
+/// long as its arrays. SUNDER_ERROR_ARGUMENT if there is no frame or no such appearance.
+SUNDER_API SunderResult sunder_world_appearance(SunderWorld world, uint32_t index,
+                                                SunderAppearance* appearance);
 
 #ifdef __cplusplus
 }

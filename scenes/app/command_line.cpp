@@ -43,9 +43,14 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.app->add_option(
       "--verify", command.options->verify,
       "A recording of the same run; fail at the first frame whose state differs");
-  command.app->add_option("--events", command.options->events,
-                          "Write breaks, and bodies that appear, disappear, sleep and wake, as a "
-                          "line of JSON each");
+  CLI::Option* events = command.app->add_option(
+      "--events", command.options->events,
+      "Write breaks, and bodies that appear, disappear, sleep and wake, as a line of JSON each");
+  command.app
+      ->add_option("--hits", command.options->hits_m_s,
+                   "Write hits of at least this closing speed in m/s, too")
+      ->needs(events)
+      ->check(CLI::NonNegativeNumber);
   command.app->add_option("--trace", command.options->trace,
                           "Write a trace of all threads, for ui.perfetto.dev");
   command.app->add_flag("--count-threads", command.options->count_threads,

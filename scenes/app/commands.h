@@ -1,6 +1,7 @@
 // The commands of the program and their options. command_line.cpp parses the options.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,10 +46,12 @@ struct CheckOptions : CommonOptions {
 struct SimulateOptions : CommonOptions {
   std::string scene;
   scenes::LoadOptions load;
-  int frames = -1;             ///< Index of the last frame; -1: to the end of the scene.
-  std::string take;            ///< File to record to; empty: none.
-  std::string verify;          ///< Recording to compare with; empty: none.
-  std::string events;          ///< File for a line of JSON for each event; empty: none.
+  int frames = -1;     ///< Index of the last frame; -1: to the end of the scene.
+  std::string take;    ///< File to record to; empty: none.
+  std::string verify;  ///< Recording to compare with; empty: none.
+  std::string events;  ///< File for a line of JSON for each event; empty: none.
+  /// Least closing speed of the hits among the events; infinity: none are.
+  double hits_m_s = std::numeric_limits<double>::infinity();
   std::string trace;           ///< File for spans of all threads; empty: none.
   bool count_threads = false;  ///< Report what more threads would take.
   std::pair<double, std::string> save_at;  ///< Time in s, and file for the state; empty: none.

@@ -81,8 +81,7 @@ int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
   return caught == 0 ? 0 : 128 + caught;
 }
 
-scenes::SimulationOptions simulation_options() {
-  scenes::SimulationOptions options;
+scenes::SimulationOptions simulation_options(scenes::SimulationOptions options) {
   options.cases_folder = "sunder-cases";
   options.warn = [](const std::string& warning) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -91,10 +90,7 @@ scenes::SimulationOptions simulation_options() {
 }
 
 std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options) {
-  const scenes::SimulationOptions ours = simulation_options();
-  options.cases_folder = ours.cases_folder;
-  options.warn = ours.warn;
-  return scenes::make_simulation(std::move(scene), options);
+  return scenes::make_simulation(std::move(scene), simulation_options(std::move(options)));
 }
 
 int last_frame(const Scene& scene, int wanted, const std::string& option) {

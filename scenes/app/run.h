@@ -13,11 +13,10 @@
 
 namespace sunder::app {
 
-/// Returns the options of simulations of the program: warnings go to stderr, and case files of
-/// failed breaks to sunder-cases/.
-scenes::SimulationOptions simulation_options();
-/// Makes the simulation of a scene. Warnings go to stderr, and case files of failed breaks to
-/// sunder-cases/, whatever `options` has for them.
+/// Returns options for a simulation of the program: warnings go to stderr, and case files of failed
+/// breaks to sunder-cases/, whatever `options` has for them.
+scenes::SimulationOptions simulation_options(scenes::SimulationOptions options = {});
+/// Makes the simulation of a scene, with simulation_options().
 std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options = {});
 /// Returns the index of the last frame: `wanted`, or the last of the scene if that is negative.
 /// Throws InputError that begins with `option` if the scene ends before.

@@ -28,8 +28,8 @@ std::string megabytes(std::uint64_t bytes) {
 World make_world(const SimulateOptions& options) {
   if (options.scene.empty() && options.resume.empty())
     throw InputError("simulate: expected a SCENE, or --resume with the file of a saved state");
-  scenes::SimulationOptions simulation = simulation_options();
-  simulation.count_loops = options.count_threads;
+  const scenes::SimulationOptions simulation =
+      simulation_options({.count_loops = options.count_threads});
   if (options.resume.empty())
     return scenes::make_world(scenes::load_scene(options.scene, options.load), simulation);
   return scenes::restore_world(read_file(options.resume), simulation, options.resume);
@@ -66,6 +66,9 @@ int simulate(const SimulateOptions& options) {
   const Scene& scene = simulation.world().scene();
   const int first = static_cast<int>(std::lround(simulation.world().time_s() * 60));
   const int last = last_frame(scene, options.frames, "--frames " + std::to_string(options.frames));
+  if (last < first)
+    throw InputError("--frames " + std::to_string(last) + ": the saved state is of frame " +
+                     std::to_string(first));
   const double save_s = options.save_at.first;
   if (!options.save_at.second.empty() && !(save_s >= first / 60.0 && save_s <= last / 60.0))
     throw InputError("--save-at " + number_text(save_s) + ": expected a time of the run, from " +
@@ -73,6 +76,7 @@ int simulate(const SimulateOptions& options) {
   Statistics statistics(scenes::run_info(scene, options.load.preset));
   Progress progress("simulate " + scene.name, last, options.quiet);
   StateHash hash;
+  simulation.world().report_hits(options.hits_m_s);
   SavingSource saving(simulation, options);
   FramesUntil frames(saving, last - first);
   std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
@@ -85,7 +89,7 @@ int simulate(const SimulateOptions& options) {
   std::optional<RecordingWriter> writer;
   if (!options.take.empty()) sinks.push_back(&writer.emplace(options.take));
   std::optional<EventLog> events;
-  if (!options.events.empty()) sinks.push_back(&events.emplace(options.events));
+  if (!options.events.empty()) sinks.push_back(&events.emplace(options.events, simulation.world()));
   if (!options.trace.empty()) start_trace();
   const int exit_code = pump_until_stopped(frames, sinks);
   if (!options.trace.empty()) {

@@ -62,6 +62,50 @@ static SunderAsset make_crate(void) {
   return asset;
 }
 
+typedef struct Refusal {
+  SunderBody refused;
+  int calls;
+} Refusal;
+
+static bool is_not_refused(SunderBody body, void* user) {
+  Refusal* refusal = user;
+  ++refusal->calls;
+  EXPECT(body.key != SUNDER_NO_KEY);
+  return body.key != refusal->refused.key;
+}
+
+// Queries ask a function of the program which bodies they may find.
+static void query_by_callback(SunderWorld world, SunderBody wall, SunderBody crate) {
+  Refusal refusal = {wall, 0};
+  SunderQuery query = sunder_default_query();
+  query.accepts = is_not_refused;
+  query.accepts_user = &refusal;
+  SunderCastHit hit;
+  bool found = false;
+  // The ray would meet the wall, then the crate.
+  OK(sunder_world_cast(world, vec(-5, 1.2, 0), vec(1, 0.18, 0), 30, 0, &query, &hit, &found));
+  EXPECT(found && hit.body.key == crate.key && refusal.calls >= 2);
+  OK(sunder_world_cast(world, vec(-5, 1.2, 0), vec(1, 0.18, 0), 30, 0, NULL, &hit, &found));
+  EXPECT(found && hit.body.key == wall.key);
+  uint32_t count = 0;
+  OK(sunder_world_cast_all(world, vec(-5, 1.2, 0), vec(1, 0.18, 0), 30, 0, &query, NULL, &count));
+  EXPECT(count == 1);
+  OK(sunder_world_overlap_box(world, vec(-9, 0.5, -9), vec(9, 9, 9), &query, NULL, &count));
+  EXPECT(count == 1);
+  OK(sunder_world_overlap_ball(world, vec(0, 2, 0), 9, &query, NULL, &count));
+  EXPECT(count == 2);  // the crate and the ground
+  query.ignored = crate;
+  query.ground = false;
+  OK(sunder_world_overlap_ball(world, vec(0, 2, 0), 9, &query, NULL, &count));
+  EXPECT(count == 0);
+  refusal.refused = crate;
+  query.ignored.key = SUNDER_NO_KEY;
+  query.mask = 0;  // of no body, so that there is nothing to ask
+  refusal.calls = 0;
+  OK(sunder_world_overlap_ball(world, vec(0, 2, 0), 9, &query, NULL, &count));
+  EXPECT(count == 0 && refusal.calls == 0);
+}
+
 // Drops a crate, shoots at a wall, and asks what happened.
 static void a_short_game(void) {
   const SunderWorld world = make_world();
@@ -121,6 +165,8 @@ static void a_short_game(void) {
   OK(sunder_world_overlap_box(world, vec(-2, 0.5, -1), vec(-1.5, 1.5, 1), &query, overlaps,
                               &count));
   EXPECT(count == 2 && overlaps[0].body.key == wall.key);
+
+  query_by_callback(world, wall, crate);
 
   SunderShotDef shot = sunder_default_shot_def();
   shot.ball.radius_m = 0.25;
@@ -199,6 +245,7 @@ static void a_short_game(void) {
     SunderMesh mesh;
     OK(sunder_world_mesh(world, frame.instances[i].mesh, &mesh));
     triangles += mesh.index_count / 3;
+    EXPECT(mesh.uvs == NULL);
     for (uint32_t k = 0; k < mesh.index_count; ++k) EXPECT(mesh.indices[k] < mesh.vertex_count);
     if (frame.instances[i].body.key != crate.key) continue;
     for (uint32_t k = 0; k < mesh.vertex_count; ++k) {
@@ -211,6 +258,9 @@ static void a_short_game(void) {
   EXPECT(triangles >= 12);
   SunderMesh mesh;
   REFUSED(sunder_world_mesh(world, frame.mesh_count, &mesh), ARGUMENT, "mesh is");
+  SunderAppearance appearance;
+  EXPECT(frame.appearance_count == 0);
+  REFUSED(sunder_world_appearance(world, 0, &appearance), ARGUMENT, "index is 0");
 
   OK(sunder_world_destroy(world));
   EXPECT(!sunder_world_is_valid(world));
@@ -512,6 +562,9 @@ static void refusals(void) {
   REFUSED(sunder_run_hash(NULL, 3, NULL), ARGUMENT, "hex is null");
   SunderMesh mesh;
   REFUSED(sunder_world_mesh(world, 0, &mesh), ARGUMENT, "there is no frame");
+  SunderAppearance appearance;
+  REFUSED(sunder_world_appearance(world, 0, &appearance), ARGUMENT, "there is no frame");
+  REFUSED(sunder_world_appearance(world, 0, NULL), ARGUMENT, "appearance is null");
   SunderAsset asset = {0, 0};
   const SunderSolidDef solid = sunder_default_solid_def();
   REFUSED(sunder_world_add_solid(world, asset, &solid, NULL), HANDLE, "asset is null");

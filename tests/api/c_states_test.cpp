@@ -1,5 +1,12 @@
 // A scene that is run through the C interface has the states that it has through World.
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -145,6 +152,87 @@ TEST(CStates, OfARestoredWorldGoOnWithTheSameBits) {
   EXPECT_EQ(sunder_world_restore(kept.data(), kept.size() - 1, 1, &restored), SUNDER_ERROR_INPUT);
   EXPECT_EQ(std::string(sunder_last_error()),
             "sunder_world_restore(): bytes: the saved state is truncated or damaged");
+}
+
+/// A picture of one pixel, as the bytes of its PNG file.
+constexpr unsigned char kPicture[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+    0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+    0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
+    0x9c, 0x63, 0xf8, 0xcf, 0xc0, 0x00, 0x00, 0x03, 0x01, 0x01, 0x00, 0xc9, 0xfe, 0x92,
+    0xef, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+TEST(CFrames, HaveTextureCoordinatesAndAppearancesOfMeshFiles) {
+  namespace fs = std::filesystem;
+  std::string name = (fs::temp_directory_path() / "sunder-c-XXXXXX").string();
+  const fs::path folder = mkdtemp(name.data());
+  std::ofstream(folder / "p.png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(kPicture), sizeof kPicture);
+  std::ofstream(folder / "box.mtl") << "newmtl m\nKd 1 0 0.5\nmap_Kd p.png\n";
+  std::ofstream obj(folder / "box.obj");
+  obj << "mtllib box.mtl\nusemtl m\n";
+  const ConvexPolyhedron box = make_box({0, 0, 0}, {1, 2, 1});
+  // Texture coordinates are x + 2 z and y - 3 z.
+  for (const Vec3& v : box.vertices)
+    obj << "v " << v.x() << " " << v.y() << " " << v.z() << "\nvt " << v.x() + 2 * v.z() << " "
+        << v.y() - 3 * v.z() << "\n";
+  for (std::size_t f = 0; f < box.faces.size(); ++f) {
+    obj << "f";
+    for (const std::uint32_t v : box.face_corners(f)) obj << " " << v + 1 << "/" << v + 1;
+    obj << "\n";
+  }
+  obj.close();
+  const std::string file = (folder / "scene.toml").string();
+  std::ofstream(file) << "[scene]\ndescription = \"x\"\n[[body]]\nmesh = \"box.obj\"\n"
+                         "material = \"stone\"\n[script]\n[[script.shot]]\ntime_s = 0.05\n"
+                         "from = [-3, 1, 0]\nat = [0, 1, 0]\nspeed_m_s = 60\nradius_m = 0.3\n";
+  const SunderWorld world = c_world(file.c_str(), 1);
+  std::uint32_t bodies = 0;
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(sunder_world_step(world, kFrame_s), SUNDER_OK);
+  ASSERT_EQ(sunder_world_body_count(world, &bodies), SUNDER_OK);
+  EXPECT_GT(bodies, 4u) << "the box broke";
+
+  SunderFrame frame{};
+  ASSERT_EQ(sunder_world_frame(world, &frame), SUNDER_OK);
+  std::size_t textured = 0, inside = 0;
+  std::set<std::uint32_t> seen;
+  for (std::uint32_t i = 0; i < frame.instance_count; ++i) {
+    const std::uint32_t index = frame.instances[i].mesh;
+    if (!seen.insert(index).second) continue;
+    SunderMesh mesh{};
+    ASSERT_EQ(sunder_world_mesh(world, index, &mesh), SUNDER_OK) << sunder_last_error();
+    if (!mesh.uvs) continue;
+    // Differences of the coordinates are those of the positions, which are relative to a point.
+    std::optional<std::array<float, 4>> first;
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+      const float *p = mesh.vertices[v].position, *uv = mesh.uvs + 2 * v;
+      if (mesh.vertices[v].look < SUNDER_LOOK_FILE) {
+        ++inside;
+        continue;
+      }
+      EXPECT_EQ(mesh.vertices[v].look, static_cast<std::uint32_t>(SUNDER_LOOK_FILE));
+      ++textured;
+      const float x = p[0] + 2 * p[2], y = p[1] - 3 * p[2];
+      if (!first) first = {{x, y, uv[0], uv[1]}};
+      EXPECT_NEAR(uv[0] - (*first)[2], x - (*first)[0], 1e-4);
+      EXPECT_NEAR(uv[1] - (*first)[3], y - (*first)[1], 1e-4);
+    }
+  }
+  EXPECT_GT(textured, 20u);
+  EXPECT_GT(inside, 20u);
+
+  ASSERT_EQ(frame.appearance_count, 1u);
+  SunderAppearance appearance{};
+  ASSERT_EQ(sunder_world_appearance(world, 0, &appearance), SUNDER_OK) << sunder_last_error();
+  EXPECT_EQ(appearance.color[0], 1);
+  EXPECT_EQ(appearance.color[1], 0);
+  EXPECT_TRUE(appearance.v_from_bottom);
+  EXPECT_FALSE(appearance.has_gloss);
+  EXPECT_EQ(appearance.gloss.bytes, nullptr);
+  ASSERT_EQ(appearance.picture.size, sizeof kPicture);
+  EXPECT_EQ(std::memcmp(appearance.picture.bytes, kPicture, sizeof kPicture), 0);
+  EXPECT_EQ(sunder_world_destroy(world), SUNDER_OK);
+  fs::remove_all(folder);
 }
 
 TEST(CThreads, RunWorldsAtOnceAndCallsForOneWorldOneAfterAnother) {

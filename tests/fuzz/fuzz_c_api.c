@@ -372,6 +372,11 @@ static bool act(SunderWorld world) {
   }
 }
 
+static bool accepts_some(SunderBody body, void* user) {
+  if (body.key == SUNDER_NO_KEY) fail("the ground is asked for");
+  return (body.key + *(const uint32_t*)user) % 3 != 0;
+}
+
 static void ask(SunderWorld world) {
   SunderBodyInfo info;
   SunderCastHit hits[kRoom];
@@ -382,6 +387,9 @@ static void ask(SunderWorld world) {
   query.mask = one_in(3) ? (uint32_t)next() : 0xffffffffu;
   query.ground = one_in(2);
   query.ignored = any_body();
+  uint32_t shift = below(3);
+  if (one_in(2)) query.accepts = accepts_some;
+  query.accepts_user = &shift;
   if (one_in(100)) query.cookie = 0;
   const SunderQuery* filter = one_in(2) ? &query : NULL;
   uint32_t count = below(kRoom + 1);
@@ -462,6 +470,8 @@ static void draw(SunderWorld world) {
   }
   SunderMesh mesh;
   done(sunder_world_mesh(world, below(frame.mesh_count + 2), &mesh));
+  SunderAppearance appearance;
+  done(sunder_world_appearance(world, below(frame.appearance_count + 2), &appearance));
 }
 
 static void copy_world(void) {
