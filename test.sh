@@ -19,6 +19,7 @@ set_up
 install_optional clang-format-14
 install_optional libbullet-dev libode-dev
 install_optional parallel
+install_optional qemu-user-static
 
 say "Building everything"
 cmake --build --preset release

@@ -162,8 +162,10 @@ void Encoder::fail() {
   std::filesystem::remove(temporary_, ignored);
   std::array<char, 2000> words = {};
   const ssize_t size = ::pread(log_, words.data(), words.size() - 1, 0);
-  throw FileError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " +
-                  (size > 0 ? words.data() : "no error message"));
+  const std::string reason = size > 0 ? words.data() : "no error message";
+  if (reason.starts_with(temporary_.string() + ":"))
+    throw FileError(path_.string() + ": cannot be written; check the folder and its permissions");
+  throw FileError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " + reason);
 }
 
 }  // namespace sunder::render

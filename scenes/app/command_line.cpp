@@ -7,6 +7,7 @@
 #include "render/passes/layers.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
+#include "scenes/app/build_info.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/subcommand.h"
 #include "scenes/solid_break.h"
@@ -307,6 +308,12 @@ void add_hull(CLI::App& program, Command& chosen) {
       ->check(from_to(4, 10000));
 }
 
+void add_doctor(CLI::App& program, Command& chosen) {
+  Subcommand<DoctorOptions>(program, "doctor",
+                            "What the program finds on this machine, and what is missing", doctor,
+                            chosen);
+}
+
 Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const char* name,
                                      const char* help, int (*work)(const GoldenOptions&)) {
   Subcommand<GoldenOptions> command(golden, name, help, work, chosen);
@@ -364,7 +371,7 @@ void add_golden(CLI::App& program, Command& chosen) {
 
 Command parse_command_line(int argc, char** argv) {
   CLI::App program("Simulates and renders destruction.", "sunder");
-  program.set_version_flag("--version", SUNDER_VERSION);
+  program.set_version_flag("--version", version_line());
   program.require_subcommand(1);
   Command chosen;
   add_list(program, chosen);
@@ -377,6 +384,7 @@ Command parse_command_line(int argc, char** argv) {
   add_vacd(program, chosen);
   add_hull(program, chosen);
   add_golden(program, chosen);
+  add_doctor(program, chosen);
   check_words(program, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
   try {
     program.parse(argc, argv);

@@ -98,6 +98,8 @@ struct TradeOptions : CommonOptions {
   bool merge = false;
 };
 
+struct DoctorOptions : CommonOptions {};
+
 struct FractureOptions : CommonOptions {
   std::string mesh;  ///< Mesh to break, or a case file with a compound and its break.
   scenes::MeshOptions solid;
@@ -149,6 +151,7 @@ int trade(const TradeOptions& options);
 int fracture_mesh(const FractureOptions& options);
 int vacd(const VacdOptions& options);
 int hull(const HullOptions& options);
+int doctor(const DoctorOptions& options);
 int golden_test(const GoldenOptions& options);
 int golden_report(const GoldenOptions& options);
 int golden_accept(const GoldenOptions& options);

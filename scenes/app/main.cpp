@@ -1,4 +1,5 @@
 // The program `sunder`. Read first: commands.h, then the file of a command.
+// processor_check.cpp runs before main().
 #include <malloc.h>
 
 #include <cstdio>
@@ -7,15 +8,6 @@
 #include "scenes/app/command_line.h"
 
 int main(int argc, char** argv) {
-#ifdef __AVX2__
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    std::fputs(
-        "failed: this program is built for processors with AVX2 (x86-64-v3); build it with "
-        "-DSUNDER_ARCH=x86-64-v2\n",
-        stderr);
-    return 1;
-  }
-#endif
   // Keep freed memory for the next frame: for a large solid, returning it and getting zeroed pages
   // takes a third of the time of its stress computation.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
