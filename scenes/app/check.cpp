@@ -17,6 +17,7 @@ int list(const ListOptions& options) {
   Figures figures;
   std::size_t index = 0;
   for (const scenes::CatalogEntry& entry : scenes::catalog()) {
+    if (options.quiet && options.json != "-") std::printf("%s\n", entry.name.c_str());
     options.print(entry.name +
                   std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') +
                   entry.description + "\n");
