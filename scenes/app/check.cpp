@@ -5,6 +5,7 @@
 
 #include "engine/io/figures.h"
 #include "scenes/app/commands.h"
+#include "scenes/file/error_list.h"
 #include "scenes/make_simulation.h"
 
 namespace sunder::app {
@@ -30,6 +31,21 @@ int list(const ListOptions& options) {
   return 0;
 }
 
+namespace {
+
+/// Prints the mistakes of a scene, and adds them to its figures.
+void report_errors(const std::vector<std::string>& errors, const std::string& at,
+                   Figures& figures) {
+  figures[at + "/good"] = false;
+  figures[at + "/error"] = errors.front();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    std::fprintf(stderr, "error: %s\n", errors[i].c_str());
+    figures[at + "/errors/" + std::to_string(i)] = errors[i];
+  }
+}
+
+}  // namespace
+
 // Checks all scenes, also after one with an error.
 int check(const CheckOptions& options) {
   Figures figures;
@@ -50,10 +66,11 @@ int check(const CheckOptions& options) {
       figures[at + "/good"] = true;
       figures[at + "/solids"] = static_cast<std::int64_t>(scene.solids.size());
       figures[at + "/convexes"] = static_cast<std::int64_t>(convexes);
+    } catch (const scenes::InputErrors& errors) {
+      report_errors(errors.all(), at, figures);
+      ++wrong;
     } catch (const InputError& error) {
-      std::fprintf(stderr, "error: %s\n", error.what());
-      figures[at + "/good"] = false;
-      figures[at + "/error"] = std::string(error.what());
+      report_errors({error.what()}, at, figures);
       ++wrong;
     }
   }

@@ -6,6 +6,7 @@
 
 #include "engine/base/check.h"
 #include "scenes/app/command_line.h"
+#include "scenes/file/error_list.h"
 
 int main(int argc, char** argv) {
   // Keep freed memory for the next frame: for a large solid, returning it and getting zeroed pages
@@ -16,6 +17,10 @@ int main(int argc, char** argv) {
     const int code = sunder::app::parse_command_line(argc, argv)();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     throw sunder::FileError("standard output cannot be written");
+  } catch (const sunder::scenes::InputErrors& errors) {
+    for (const std::string& error : errors.all())
+      std::fprintf(stderr, "error: %s\n", error.c_str());
+    return 2;
   } catch (const sunder::InputError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

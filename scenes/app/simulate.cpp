@@ -9,6 +9,7 @@
 #include "engine/io/statistics.h"
 #include "engine/io/trace_file.h"
 #include "scenes/app/run.h"
+#include "scenes/app/run_notes.h"
 
 namespace sunder::app {
 namespace {
@@ -28,9 +29,10 @@ int simulate(const SimulateOptions& options) {
   Statistics statistics(scenes::run_info(scene, options.load.preset));
   Progress progress("simulate " + scene.name, last, options.quiet);
   StateHash hash;
+  RunNotes notes(scene);
   const auto simulation = make_simulation(std::move(scene), {.count_loops = options.count_threads});
   FramesUntil frames(*simulation, last);
-  std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
+  std::vector<FrameSink*> sinks = {&statistics, &hash, &notes, &progress};
   std::optional<RecordingReader> recording;
   std::optional<RecordingVerifier> verifier;
   if (!options.verify.empty()) {
@@ -49,7 +51,7 @@ int simulate(const SimulateOptions& options) {
   }
   if (const std::string warning = statistics.limits_warning(); !warning.empty())
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  options.print(statistics.table() + "state hash " + hash.hex() + "\n");
+  options.print(statistics.table() + "state hash " + hash.hex() + "\n" + notes.text());
   options.write_json(statistics.json(hash.hex(), /*per_frame=*/true));
   if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
   if (events)
