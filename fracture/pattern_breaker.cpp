@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/base/archive.h"
 #include "engine/base/random.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/clip.h"
@@ -14,6 +15,7 @@
 #include "fracture/rejoin.h"
 #include "fracture/stress/separate_islands.h"
 #include "fracture/stress/stress_breaks.h"
+#include "fracture/stress/stress_memory.h"
 #include "fracture/tuning.h"
 
 namespace sunder::fracture {
@@ -177,6 +179,11 @@ class PatternBreaker final : public Breaker {
 
   void on_applied(const BreakPlan& plan) const override {
     if (log_) log_->count(plan.failed, plan.failed_m3);
+  }
+  void archive(Archive& bytes, StressCachePtr& memory) const override {
+    auto known = std::static_pointer_cast<const KnownStress>(memory);
+    bytes(known);
+    memory = std::move(known);
   }
   StressResult stress(const Structure& structure, const LoadCase& load) const override {
     return break_by_stress(structure, load);

@@ -4,7 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/archive.h"
 #include "engine/base/parallel.h"
+#include "engine/io/sealed_bytes.h"
 #include "engine/model/checks/scene_accuracy.h"
 #include "engine/model/checks/scene_chains.h"
 #include "engine/model/checks/scene_check.h"
@@ -160,6 +162,29 @@ World make_world(Scene scene, const SimulationOptions& options) {
   std::unique_ptr<Physics> physics = make_physics(scene);
   auto breaker = fracture::make_pattern_breaker(failure_log(scene, options));
   World world(std::move(scene), std::move(physics), std::move(breaker), std::move(particles));
+  world.set_threads(options.threads);
+  if (options.inspect) world.inspect();
+  if (options.count_loops) world.count_loops();
+  return world;
+}
+
+std::vector<std::byte> save_world(const World& world) {
+  Archive bytes;
+  world.save(bytes);
+  return seal(bytes.take());
+}
+
+World restore_world(std::span<const std::byte> bytes, const SimulationOptions& options,
+                    const std::string& name) {
+  const std::vector<std::byte> state = unseal(bytes, name);
+  Archive archive(state);
+  Scene scene;
+  archive(scene);
+  std::unique_ptr<Particles> particles = make_particles(scene);
+  std::unique_ptr<Physics> physics = make_physics(scene);
+  auto breaker = fracture::make_pattern_breaker(failure_log(scene, options));
+  World world(archive, std::move(scene), std::move(physics), std::move(breaker),
+              std::move(particles));
   world.set_threads(options.threads);
   if (options.inspect) world.inspect();
   if (options.count_loops) world.count_loops();

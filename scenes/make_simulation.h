@@ -1,10 +1,13 @@
 // Makes worlds and simulations of scenes, with the program's solver, fracture, debris and dust.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "engine/io/statistics.h"
 #include "engine/model/frame.h"
@@ -29,6 +32,14 @@ struct SimulationOptions {
 /// Returns a world that the caller advances. Throws InputError for a planar scene that needs a
 /// third dimension.
 World make_world(Scene scene, const SimulationOptions& options = {});
+/// Returns the state of a world as bytes: compressed, and with a sum that tells damage. Worlds in
+/// equal states have equal bytes. Throws InputError for a planar scene.
+std::vector<std::byte> save_world(const World& world);
+/// Returns a world in the state that save_world() of the same version of the program has returned,
+/// in this or another process; it goes on with the same bits. Of `options`, `cases_folder`,
+/// `threads` and `warn` are used. Throws InputError, which begins with `name`, for other bytes.
+World restore_world(std::span<const std::byte> bytes, const SimulationOptions& options = {},
+                    const std::string& name = "restore_world()");
 /// Returns a source of frames: frame 0 is the scene as given, then one every 1/60 s until the
 /// scene's duration has passed. Frames are bit-identical for any number of threads. Throws
 /// InputError for a planar scene that needs a third dimension.

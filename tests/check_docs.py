@@ -40,6 +40,8 @@ SYNTAX = {
     "sunder list [--keys]": ["sunder list", "sunder list --keys"],
     "sunder check SCENE...": ["sunder check stack glass"],
     "sunder simulate SCENE": ["sunder simulate stack"],
+    "sunder simulate --resume FILE":
+        ["sunder simulate stack --save-at 0 stack.state", "sunder simulate --resume stack.state"],
     "sunder render SCENE|X.take|X.frame -o X.mp4|X.webm|X.png|DIR/":
         ["sunder render stack -o x.png", "sunder render house.take -o frames/",
          "sunder render tests/golden/stack.frame -o x.webm"],

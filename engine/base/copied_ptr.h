@@ -6,6 +6,8 @@
 
 namespace sunder {
 
+class Archive;
+
 /// Owns an object, or none. T has a function `std::unique_ptr<T> copy() const`.
 template <class T>
 class CopiedPtr {
@@ -23,6 +25,11 @@ class CopiedPtr {
   explicit operator bool() const { return owned_ != nullptr; }
   T& operator*() const { return *owned_; }
   T* operator->() const { return owned_.get(); }
+
+  /// Writes or reads the state of the object, if there is one, by its archive().
+  friend void archive(Archive& bytes, CopiedPtr& pointer) {
+    if (pointer) pointer->archive(bytes);
+  }
 
  private:
   std::unique_ptr<T> owned_;

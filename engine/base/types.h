@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
@@ -76,6 +77,7 @@ struct Index {
   constexpr explicit Index(std::size_t v) : value(static_cast<std::uint32_t>(v)) {}
   constexpr bool none() const { return value == kNone; }
   constexpr auto operator<=>(const Index&) const = default;
+  static constexpr auto fields(auto& self) { return std::tie(self.value); }
 };
 
 /// The number of a slot and its generation when the id was issued. The id of a removed object is

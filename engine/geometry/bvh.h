@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -21,6 +22,8 @@ class Bvh {
   /// Appends the indices of the boxes within `radius_m` of `center`, ascending.
   void within(const Vec3& center, double radius_m, std::vector<std::uint32_t>& found) const;
   bool empty() const { return nodes_.empty(); }
+
+  static auto fields(auto& self) { return std::tie(self.nodes_, self.items_, self.boxes_); }
 
  private:
   struct Node {

@@ -38,10 +38,13 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/check.h"
 #include "engine/model/section.h"
 #include "engine/model/structure.h"
 
 namespace sunder {
+
+class Archive;
 
 /// An impact on a structure, in the structure's rest frame R.
 struct StructureImpact {
@@ -189,6 +192,8 @@ class StressCache {
   virtual ~StressCache() = default;
 };
 using StressCachePtr = std::shared_ptr<const StressCache>;
+/// Does nothing: only the breaker knows the type (Breaker::archive()).
+inline void archive(Archive& /*bytes*/, StressCachePtr& /*memory*/) {}
 
 /// An impact load: impulses that act in no time.
 struct ImpulsiveLoad {
@@ -291,6 +296,10 @@ class Breaker {
   /// Returns the bonds of a non-empty structure that a steady load breaks, by the stress in
   /// equilibrium with the load; spends about `load.most_work`.
   virtual StressResult stress(const Structure& structure, const LoadCase& load) const = 0;
+  /// Writes or reads a memory that stress() has returned; may be null.
+  virtual void archive(Archive& /*bytes*/, StressCachePtr& /*memory*/) const {
+    throw InputError("the state of this breaker cannot be saved");
+  }
   /// Returns for each slot the highest stress over its limit among the bonds of its convex;
   /// negative if it has none. For debug views; does not affect the simulation.
   virtual std::vector<float> utilisation(const Structure& /*structure*/,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 namespace sunder {
 
@@ -104,6 +105,8 @@ class LimitsHit {
     for (std::size_t i = 0; i < kLimits; ++i)
       if (counts_[i] > 0) visit(kLimitTexts[i], counts_[i]);
   }
+
+  static auto fields(auto& self) { return std::tie(self.counts_); }
 
  private:
   std::array<std::uint32_t, kLimits> counts_ = {};

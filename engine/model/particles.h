@@ -15,12 +15,15 @@
 #include <memory>
 #include <span>
 
+#include "engine/base/check.h"
 #include "engine/base/types.h"
 #include "engine/geometry/convex_polyhedron.h"
 #include "engine/model/body_states.h"
 #include "engine/model/material.h"
 
 namespace sunder {
+
+class Archive;
 
 /// A face exposed by a break, from which debris and dust come off.
 struct ExposedPolygon {
@@ -124,6 +127,10 @@ class Particles {
   virtual ~Particles() = default;
 
   virtual std::unique_ptr<Particles> copy() const = 0;
+  /// Writes the state to an archive, or takes it over from one.
+  virtual void archive(Archive& /*bytes*/) {
+    throw InputError("the state of these particles cannot be saved");
+  }
 
   /// Emits debris and dust, distributed uniformly on each face.
   virtual void emit(std::span<const ExposedPolygon> faces) = 0;

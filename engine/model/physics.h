@@ -40,6 +40,8 @@
 
 namespace sunder {
 
+class Archive;
+
 /// Angles between a triangle and its neighbours, one per edge, as the cosine and sine of the angle
 /// by which the surface bends away (convex edge) beyond the edge; limited to a right angle. (1, 0):
 /// the neighbour is flat or rises (concave edge). (0, 1): the surface ends at the edge.
@@ -233,6 +235,10 @@ class Physics {
   /// Returns a copy, which later calls change as they would change this; ids stay valid in it.
   virtual std::unique_ptr<Physics> copy() const {
     throw InputError("the state of this solver cannot be copied");
+  }
+  /// Writes the state to an archive, or takes it over from one; ids stay valid in it.
+  virtual void archive(Archive& /*bytes*/) {
+    throw InputError("the state of this solver cannot be saved");
   }
   /// Removes bodies, then adds bodies; returns the new ids in the order of `add`. Neighbours of
   /// removed bodies are woken.

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -81,6 +82,11 @@ class Structure {
   Compound compound() const;
   /// Returns the mean memory per convex in bytes, geometry included.
   double bytes_per_convex() const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.slots_, self.ghosts_, self.levels_, self.size_, self.anchored_,
+                    self.bonds_);
+  }
 
  private:
   struct Slot {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "engine/base/archive.h"
 #include "engine/base/loop_count.h"
 #include "engine/base/trace.h"
 #include "engine/model/work.h"
@@ -14,6 +16,11 @@
 namespace sunder {
 
 /// List of work items: each part of a stage once, in order of its first appearance.
+/// Times are not part of a saved state.
+inline void archive(Archive& bytes, std::vector<WorkItem>& items) {
+  if (bytes.reads()) items.clear();
+}
+
 class WorkLog {
  public:
   void add(const WorkItem& item) {
@@ -29,6 +36,8 @@ class WorkLog {
   const std::vector<WorkItem>& items() const { return items_; }
   /// Returns the items and clears the log.
   std::vector<WorkItem> take() { return std::exchange(items_, {}); }
+
+  static auto fields(auto& self) { return std::tie(self.items_); }
 
  private:
   std::vector<WorkItem> items_;

@@ -40,7 +40,7 @@ class Candidates {
     if (!filter_.ground) return std::nullopt;
     const bool plane = tag == kGroundPlaneTag;
     return Candidate{BodyKey(), plane ? 0 : tag, nullptr,
-                     plane ? nullptr : &world_.landscape.facets[tag]};
+                     plane ? nullptr : &(*world_.landscape.facets)[tag]};
   }
   bool passes(const Actor& actor) const {
     if ((actor.filter.category & filter_.mask) == 0) return false;

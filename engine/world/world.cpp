@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/archive.h"
 #include "engine/base/check.h"
 #include "engine/base/cpu_time.h"
 #include "engine/base/loop_count.h"
@@ -60,6 +61,23 @@ void solve(WorldState& world) {
 /// Returns the key of a body with a tag; none() for the ground.
 BodyKey key_of_tag(std::uint32_t tag) { return BodyKey(std::size_t{tag}); }
 static_assert(kGroundKey == BodyKey::kNone);
+
+/// Writes or reads a report or events without the times that computations took: equal states have
+/// equal bytes.
+void archive_without_times(Archive& bytes, FrameReport& of) {
+  FrameReport report = of;
+  std::ranges::fill(report.stage_ms, 0);
+  std::ranges::fill(report.stage_cpu_ms, 0);
+  report.stage_loops = {};
+  bytes(report);
+  if (bytes.reads()) of = std::move(report);
+}
+void archive_without_times(Archive& bytes, Events& of) {
+  Events events = of;
+  for (BreakEvent& event : events.breaks) event.plan_ms = 0;
+  bytes(events);
+  if (bytes.reads()) of = std::move(events);
+}
 
 /// A body, and whether it slept, at the end of a step.
 struct Known {
@@ -127,6 +145,19 @@ struct World::Parts {
   void advance();
   void note_hits();
   void end_step();
+
+  /// Writes or reads the state of a world, without the scene, and without settings of the process.
+  friend void archive(Archive& bytes, Parts& parts) {
+    WorldState& world = parts.world;
+    bytes(world.materials, world.names, world.clock, world.actors, world.joints, world.meshes,
+          world.landscape, world.log, world.next_event, world.smallest_piece_factor, world.exposed);
+    world.physics->archive(bytes);
+    for (Actor& actor : world.actors) parts.breaker->archive(bytes, actor.stress.memory);
+    bytes(parts.act, parts.breaks, parts.loads, parts.particles, parts.inspects,
+          parts.least_hit_m_s, parts.known);
+    archive_without_times(bytes, parts.report);
+    archive_without_times(bytes, parts.events);
+  }
 };
 
 Actor& World::Parts::actor(BodyKey key, const char* call) {
@@ -272,6 +303,20 @@ World World::copy() const {
   return World(std::make_unique<Parts>(*parts_));
 }
 
+void World::save(Archive& bytes) const {
+  // An archive that writes leaves the objects as they are.
+  Parts& parts = const_cast<Parts&>(*parts_);
+  bytes(const_cast<Scene&>(*parts.world.given), parts);
+}
+
+World::World(Archive& bytes, Scene scene, std::unique_ptr<Physics> physics,
+             std::unique_ptr<Breaker> breaker, std::unique_ptr<Particles> particles)
+    : parts_(std::make_unique<Parts>(std::move(scene), std::move(physics), std::move(breaker),
+                                     std::move(particles))) {
+  bytes(*parts_);
+  bytes.finish();
+}
+
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
@@ -304,6 +349,7 @@ void World::step(double time_s) {
 
 double World::time_s() const { return parts_->world.clock.time_s(); }
 const Scene& World::scene() const { return parts_->world.scene; }
+const std::vector<Material>& World::materials() const { return *parts_->world.materials; }
 
 MaterialIndex World::add(const Material& material) {
   parts_->check("add").material(material, "material");

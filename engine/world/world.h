@@ -24,6 +24,7 @@
 
 namespace sunder {
 
+class Archive;
 class Breaker;
 class Particles;
 class Physics;
@@ -147,6 +148,14 @@ class World {
   /// and assign it later. What does not change is shared: solids, meshes, frames. Throws InputError
   /// for a planar scene.
   World copy() const;
+  /// Writes the scene, and then the rest of the state. Throws InputError for a planar scene.
+  /// scenes/make_simulation.h makes bytes of it.
+  void save(Archive& bytes) const;
+  /// Makes a world in the state that save() wrote, which goes on with the same bits, on the number
+  /// of threads of the process. The scene has been read from `bytes`, the rest of the state has
+  /// not. Throws InputError if the bytes are damaged.
+  World(Archive& bytes, Scene scene, std::unique_ptr<Physics> physics,
+        std::unique_ptr<Breaker> breaker, std::unique_ptr<Particles> particles);
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
@@ -160,6 +169,9 @@ class World {
   double time_s() const;
   /// The scene that the world was made of; bodies and materials may have been added since.
   const Scene& scene() const;
+
+  /// The materials of the scene, and then those that were added; valid until the next one is added.
+  const std::vector<Material>& materials() const;
 
   // Create. Times of actions are in seconds of the world, and may have passed.
   MaterialIndex add(const Material& material);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,10 @@ class BlockCholesky {
   void solve(std::span<Six<double>> x) const;
   /// Returns the number of block products of a factorization.
   std::uint64_t products() const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.order_, self.place_, self.blocks_, self.rows_, self.columns_);
+  }
 
  private:
   using Columns = std::array<Six<double>, 6>;  ///< Columns of a block.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/compound.h"
@@ -36,6 +37,7 @@ class ConvexMasses {
  public:
   /// Copies the properties of convex c from convex `old_of_new[c]` of `old`, unless that is kNew.
   /// `old` may be null; its compound has no ghosts.
+  ConvexMasses() = default;
   ConvexMasses(const Compound& compound, std::span<const Material> materials,
                const ConvexMasses* old = nullptr, std::span<const std::uint32_t> old_of_new = {});
   static constexpr std::uint32_t kNew = 0xffffffff;
@@ -57,6 +59,11 @@ class ConvexMasses {
   /// rounding errors are relative.
   double applied_N(std::span<const ConvexLoad> loads, const Vec3& gravity_R,
                    const Vec3& spin_R) const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.centroids_, self.masses_kg_, self.inertias_, self.fixed_,
+                    self.free_islands_);
+  }
 
  private:
   /// Connected convexes without an anchor.

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "fracture/stress/block_cholesky.h"
@@ -27,6 +28,7 @@ struct SolveResult {
 /// The springs of a compound on all levels; may be used from any thread.
 class Multigrid {
  public:
+  Multigrid() = default;
   /// Every node must be connected to the world, directly or through other nodes.
   Multigrid(std::size_t nodes, std::vector<Spring> springs);
   /// Copies `old` and applies an edit of its springs. On all levels, groups outside the edit stay
@@ -44,6 +46,10 @@ class Multigrid {
   SolveResult solve(const Nodal<double>& f, double tolerance, double rounding_N,
                     int most_iterations, Nodal<double>& x, Nodal<double>& last_direction) const;
 
+  static auto fields(auto& self) {
+    return std::tie(self.springs_, self.unit_N_m_, self.levels_, self.groups_, self.coarsest_);
+  }
+
  private:
   /// Memory of one level of a cycle.
   struct Scratch {
@@ -59,7 +65,7 @@ class Multigrid {
   void solve_coarsest(const Nodal<float>& r, Nodal<float>& z) const;
 
   SpringLevel<double> springs_;
-  double unit_N_m_;  ///< Unit of stiffness of the levels, so that their numbers are about one.
+  double unit_N_m_ = 1;  ///< Unit of stiffness of the levels, so that their numbers are about one.
   std::vector<SpringLevel<float>> levels_;  ///< The same springs, then coarser ones.
   std::vector<SpringGroups> groups_;        ///< Groups of each level but the coarsest.
   BlockCholesky coarsest_;

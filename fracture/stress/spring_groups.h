@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "fracture/stress/spring_level.h"
@@ -13,6 +14,7 @@ namespace sunder::fracture {
 /// Groups of the nodes of one level, the fine one, which are the nodes of the coarse one.
 class SpringGroups {
  public:
+  SpringGroups() = default;
   /// Makes groups of about `size` nodes with strong springs between them.
   SpringGroups(const SpringLevel<float>& fine, std::size_t size);
 
@@ -29,6 +31,8 @@ class SpringGroups {
   void restrict_to(const Nodal<float>& forces, Nodal<float>& sums) const;
   /// Adds `factor` times the rigid motions of groups to the nodes.
   void prolong(float factor, const Nodal<float>& motions, Nodal<float>& x) const;
+
+  static auto fields(auto& self) { return std::tie(self.count_, self.group_, self.arms_); }
 
  private:
   std::optional<Spring> between_groups(Spring spring) const;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "fracture/stress/simd4.h"
@@ -49,6 +50,7 @@ struct SpringEdit {
 template <class Real>
 class SpringLevel {
  public:
+  SpringLevel() = default;
   /// Nodes without a spring stay at rest.
   SpringLevel(std::size_t nodes, std::vector<Spring> springs);
   /// Copies `old` and applies an edit, at a cost that depends on the edit; the rest is shared.
@@ -82,6 +84,8 @@ class SpringLevel {
   void residual(const Nodal<Real>& f, const Nodal<Real>& x, Nodal<Real>& y) const;
   /// Sets x to factor · D⁻¹ r, or adds that to x; D has the diagonal blocks of K.
   void relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const;
+
+  static auto fields(auto& self) { return std::tie(self.places_, self.runs_, self.inverse_); }
 
  private:
   /// A spring as apply() uses it. The fourth lane of rotation.diagonal is its stretch stiffness.

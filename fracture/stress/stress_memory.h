@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/breaker.h"
@@ -34,6 +35,10 @@ struct KnownStress final : StressCache {
   Nodal<double> last_direction;             ///< Last search direction of that solve.
   KnownDeflection deflection;               ///< Under the last impact.
 
+  static auto fields(auto& self) {
+    return std::tie(self.slots, self.convexes, self.anchored, self.bonds, self.ghosts, self.system,
+                    self.displacements, self.iterations, self.last_direction, self.deflection);
+  }
   bool is_of(const Compound& compound) const {
     // For equal convexes bonds and ghosts are never added, so equal numbers imply equal ones.
     return bonds.size() == compound.bonds.size() && ghosts == compound.ghosts.size() &&

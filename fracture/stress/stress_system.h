@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/compound.h"
@@ -39,6 +40,7 @@ struct StressOrigin {
 /// rotating frame: only loads that are not balanced by rigid acceleration, and its spin, strain it.
 class StressSystem {
  public:
+  StressSystem() = default;
   /// `geometry` is the geometry of the compound's bonds.
   StressSystem(const Compound& compound, std::vector<BondGeometry> geometry,
                std::span<const Material> materials, std::size_t spare_nodes = 0);
@@ -91,6 +93,11 @@ class StressSystem {
   /// plane: the bending of the section, however it is divided into bonds.
   BondStress stress(const Compound& compound, std::uint32_t bond,
                     std::span<const Displacement> displacements) const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.geometry_, self.masses_, self.node_of_convex_, self.bonds_, self.by_plane_,
+                    self.springs_, self.nodes_, self.overlaps_, self.multigrid_);
+  }
 
  private:
   /// The spring of a bond, from the displacements of two convexes to stress.

@@ -173,7 +173,9 @@ struct WorldEntry {
   std::optional<EventArrays> events;
   std::optional<FrameArrays> frame;
 
-  explicit WorldEntry(World made) : world(std::move(made)), materials(world.scene().materials) {}
+  Array<std::byte> saved;  ///< The last state that was saved.
+
+  explicit WorldEntry(World made) : world(std::move(made)), materials(world.materials()) {}
 };
 
 struct AssetEntry {

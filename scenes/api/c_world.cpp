@@ -1,10 +1,13 @@
 // The C interface: worlds, materials, and what is added to worlds.
 #include <dlfcn.h>
 
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "scenes/api/c_base.h"
 #include "scenes/load.h"
@@ -218,8 +221,32 @@ SunderResult sunder_world_copy(SunderWorld world, SunderWorld* copy) {
     need_pointer(copy, "copy");
     const WorldPtr made =
         std::allocate_shared<WorldEntry>(HookAllocator<WorldEntry>(), entry.world.copy());
-    made->materials = entry.materials;
     *copy = add_world(made);
+  });
+}
+
+SunderResult sunder_world_save(SunderWorld world, const void** bytes, size_t* size) {
+  return ask_world("sunder_world_save", world, [&](WorldEntry& entry) {
+    need_pointer(bytes, "bytes");
+    need_pointer(size, "size");
+    const std::vector<std::byte> saved = save_world(entry.world);
+    entry.saved.assign(saved.begin(), saved.end());
+    *bytes = entry.saved.data();
+    *size = entry.saved.size();
+  });
+}
+
+SunderResult sunder_world_restore(const void* bytes, size_t size, int32_t threads,
+                                  SunderWorld* world) {
+  return guard("sunder_world_restore", SUNDER_ERROR_INPUT, [&] {
+    need_pointer(bytes, "bytes");
+    need_pointer(world, "world");
+    need_number(threads, 0, kMostThreads, "threads");
+    SimulationOptions options;
+    options.threads = threads;
+    *world = add_world(std::allocate_shared<WorldEntry>(
+        HookAllocator<WorldEntry>(),
+        restore_world(std::span(static_cast<const std::byte*>(bytes), size), options, "bytes")));
   });
 }
 

@@ -178,6 +178,15 @@ SUNDER_API SunderResult sunder_world_destroy(SunderWorld world);
 /// Makes a world in the same state, which goes on with the same bits: to roll back, keep a copy,
 /// and go on with it. What does not change is shared. SUNDER_ERROR_ARGUMENT for a planar scene.
 SUNDER_API SunderResult sunder_world_copy(SunderWorld world, SunderWorld* copy);
+/// Returns the state of a world as bytes, compressed, for sunder_world_restore(); worlds in equal
+/// states have equal bytes. They are valid until the next call of this function for the world.
+/// SUNDER_ERROR_ARGUMENT for a planar scene.
+SUNDER_API SunderResult sunder_world_save(SunderWorld world, const void** bytes, size_t* size);
+/// Makes a world in the state that sunder_world_save() of the same version has returned, in this or
+/// another process; it goes on with the same bits. `threads` as in SunderWorldDef.
+/// SUNDER_ERROR_INPUT for other bytes.
+SUNDER_API SunderResult sunder_world_restore(const void* bytes, size_t size, int32_t threads,
+                                             SunderWorld* world);
 /// Returns true if the world exists.
 SUNDER_API bool sunder_world_is_valid(SunderWorld world);
 

@@ -34,7 +34,14 @@ void add_check(CLI::App& program, Command& chosen) {
 void add_simulate(CLI::App& program, Command& chosen) {
   Subcommand<SimulateOptions> command(program, "simulate", "Run a scene without pictures", simulate,
                                       chosen);
-  command.app->add_option("SCENE", command.options->scene, "File or name of a scene")->required();
+  CLI::Option* const scene =
+      command.app->add_option("SCENE", command.options->scene, "File or name of a scene");
+  command.app
+      ->add_option("--save-at", command.options->save_at,
+                   "Save the state at this time of the scene, in s, to a file")
+      ->type_name("TIME FILE");
+  CLI::Option* const resume = command.app->add_option(
+      "--resume", command.options->resume, "Go on from a saved state, in place of a scene");
   command.app->add_option("--take", command.options->take, "Record the run to this file");
   command.app->add_option(
       "--verify", command.options->verify,
@@ -51,8 +58,13 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.writes("--take", command.options->take);
   command.writes("--events", command.options->events);
   command.writes("--trace", command.options->trace);
+  command.writes("--save-at", command.options->save_at.second);
+  command.reads("--resume", command.options->resume);
   command.add_frames();
   command.add_changes();
+  for (CLI::Option* const option :
+       {scene, command.app->get_option("--preset"), command.app->get_option("--set")})
+    resume->excludes(option);
 }
 
 /// Adds the options of how a frame is drawn.

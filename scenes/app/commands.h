@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/renderer.h"
@@ -58,6 +59,8 @@ struct SimulateOptions : CommonOptions {
   std::string events;          ///< File for a line of JSON for each event; empty: none.
   std::string trace;           ///< File for spans of all threads; empty: none.
   bool count_threads = false;  ///< Report what more threads would take.
+  std::pair<double, std::string> save_at;  ///< Time in s, and file for the state; empty: none.
+  std::string resume;  ///< File of a saved state to go on from, in place of a scene; empty: none.
 };
 
 struct RenderOptions : CommonOptions {

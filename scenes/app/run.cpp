@@ -81,11 +81,19 @@ int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {
   return caught == 0 ? 0 : 128 + caught;
 }
 
-std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options) {
+scenes::SimulationOptions simulation_options() {
+  scenes::SimulationOptions options;
   options.cases_folder = "sunder-cases";
   options.warn = [](const std::string& warning) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   };
+  return options;
+}
+
+std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options) {
+  const scenes::SimulationOptions ours = simulation_options();
+  options.cases_folder = ours.cases_folder;
+  options.warn = ours.warn;
   return scenes::make_simulation(std::move(scene), options);
 }
 

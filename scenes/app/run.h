@@ -13,6 +13,9 @@
 
 namespace sunder::app {
 
+/// Returns the options of simulations of the program: warnings go to stderr, and case files of
+/// failed breaks to sunder-cases/.
+scenes::SimulationOptions simulation_options();
 /// Makes the simulation of a scene. Warnings go to stderr, and case files of failed breaks to
 /// sunder-cases/, whatever `options` has for them.
 std::unique_ptr<FrameSource> make_simulation(Scene scene, scenes::SimulationOptions options = {});

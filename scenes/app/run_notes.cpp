@@ -14,14 +14,15 @@ constexpr double kGroundTolerance = 0.2;
 
 }  // namespace
 
-RunNotes::RunNotes(const Scene& scene)
+RunNotes::RunNotes(const Scene& scene, double start_s)
     : gravity_W_(scene.gravity_W),
       ground_m_(scene.ground.height_m),
-      has_ground_meshes_(!scene.ground.meshes.empty()) {
+      has_ground_meshes_(!scene.ground.meshes.empty()),
+      last_s_(start_s) {
   auto index = static_cast<std::uint32_t>(scene.solids.size() + scene.balls.size());
   for (const Shot& shot : scene.shots) {
     const std::uint32_t name = index++;
-    if (!shot.hangs_from_W)
+    if (!shot.hangs_from_W && shot.time_s >= start_s)
       shots_.push_back({name, shot.time_s, shot.ball.velocity_W, shot.ball.radius_m});
   }
 }

@@ -15,7 +15,8 @@ namespace sunder::app {
 /// ball moves as gravity alone moves it. Shots that hang from something are not watched.
 class RunNotes final : public FrameSink {
  public:
-  explicit RunNotes(const Scene& scene);
+  /// `start_s`: time of the first frame. Shots before it are not watched.
+  explicit RunNotes(const Scene& scene, double start_s = 0);
   void take(const FramePtr& frame) override;
   /// Returns a line for each shot that appeared and touched nothing, or touched the ground first,
   /// and one if nothing broke; empty if there is nothing to say.
@@ -35,7 +36,7 @@ class RunNotes final : public FrameSink {
   Vec3 gravity_W_;
   double ground_m_;
   bool has_ground_meshes_;
-  double last_s_ = 0;
+  double last_s_;
   std::shared_ptr<const std::vector<std::string>> names_;
   std::int64_t breaks_ = 0;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/particles.h"
@@ -40,6 +41,12 @@ class Air : public Flow {
   }
 
   int iterations() const { return iterations_; }
+
+  static auto fields(auto& self) {
+    return std::tie(self.grid_, self.velocity_, self.placed_, self.advected_, self.solids_,
+                    self.dusty_cells_, self.dust_kg_, self.emitted_kg_, self.emitted_Ns_,
+                    self.solver_, self.max_speed_of_layer_, self.iterations_);
+  }
 
  private:
   void advect(float dt_s);

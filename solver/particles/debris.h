@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/particles.h"
@@ -35,6 +36,15 @@ class Debris {
   void advance(double dt_s, const Obstacles& obstacles);
   DebrisView view() const;
   ParticleCounts counts() const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.limit_, self.gravity_W_, self.counts_, self.next_sleep_order_,
+                    self.position_W_, self.velocity_W_, self.angular_velocity_W_, self.rotation_WD_,
+                    self.radius_m_, self.drawn_radius_m_, self.slow_s_, self.variant_,
+                    self.material_, self.state_, self.support_, self.sleep_order_, self.order_,
+                    self.steps_, self.awake_, self.asleep_, self.fading_, self.lists_valid_,
+                    self.asleep_box_, self.supports_);
+  }
 
  private:
   enum class State : std::uint8_t { kAwake, kAsleep, kFading };

@@ -1,5 +1,6 @@
 #include "solver/particles/debris_and_dust.h"
 
+#include "engine/base/archive.h"
 #include "engine/base/random.h"
 #include "solver/particles/crumble.h"
 #include "solver/particles/debris.h"
@@ -18,6 +19,7 @@ class DebrisAndDust final : public Particles {
   std::unique_ptr<Particles> copy() const override {
     return std::make_unique<DebrisAndDust>(*this);
   }
+  void archive(Archive& bytes) override { bytes(next_stream_, debris_, dust_); }
   void emit(std::span<const ExposedPolygon> faces) override {
     const CapacityShares shares = capacity_shares(faces, debris_, dust_);
     for (const ExposedPolygon& face : faces) {

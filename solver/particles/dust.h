@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/particles.h"
@@ -38,6 +39,14 @@ class Dust {
   /// Returns the air, or null while there is no dust.
   const Air* air() const { return flow_ ? &flow_->air : nullptr; }
 
+  static auto fields(auto& self) {
+    return std::tie(self.limit_, self.gravity_W_, self.down_W_, self.air_cells_, self.wanted_cells_,
+                    self.counts_, self.flow_, self.sorted_m_, self.cell_, self.order_,
+                    self.position_W_, self.slip_W_, self.rotation_WD_, self.mass_kg_,
+                    self.settling_m_s_, self.turbulence_m_s_, self.first_radius_m_, self.radius_m_,
+                    self.opacity_, self.age_s_, self.settled_s_, self.material_);
+  }
+
  private:
   static constexpr std::uint32_t kOutside = 0xffffffff;
   /// The air around the puffs of one cell.
@@ -49,7 +58,9 @@ class Dust {
   };
   /// The air and the swirl, which exist only while there is dust.
   struct Flow {
-    explicit Flow(const Vec3i& cells) : air(cells), swirl(Lattice{cells}) {}
+    /// Without an argument: a small one, to be read from an archive.
+    explicit Flow(const Vec3i& cells = Vec3i::Constant(8)) : air(cells), swirl(Lattice{cells}) {}
+    static auto fields(auto& self) { return std::tie(self.air, self.swirl); }
     Air air;
     Swirl swirl;
   };

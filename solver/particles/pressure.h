@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "solver/particles/lattice.h"
@@ -28,6 +29,11 @@ class PressureSolver {
   /// Solves until the net outflow of each cell is within the tolerance; returns the number of
   /// iterations, up to 16.
   int solve(float tolerance);
+
+  static auto fields(auto& self) {
+    return std::tie(self.levels_, self.pressure_, self.direction_, self.matrix_direction_,
+                    self.partial_);
+  }
 
  private:
   /// One grid of the hierarchy. On the finest, `residual` is that of the whole solve.

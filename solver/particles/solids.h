@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/particles.h"
@@ -17,6 +18,8 @@ class Solids {
 
   Field fraction;                 ///< Solid fraction of each cell; above 1 where obstacles overlap.
   std::array<Field, 3> momentum;  ///< Solid fraction times velocity of each cell, in m/s.
+
+  static auto fields(auto& self) { return std::tie(self.fraction, self.momentum); }
 
  private:
   /// A box in units of cells, relative to the lower corner of the grid.

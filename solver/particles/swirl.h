@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -38,6 +39,10 @@ class Swirl {
     alignas(Wide) float at_[3][kMost], spin_[3][kMost];
   };
   void find(std::size_t cell, Near& near) const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.lattice_, self.vortex_of_cell_, self.vortices_);
+  }
 
  private:
   struct Vortex {

@@ -50,6 +50,9 @@ class PlanarPhysics final : public Physics {
   std::unique_ptr<Physics> copy() const override {
     throw InputError("a planar world cannot be copied, as Box2D has no copies of its worlds");
   }
+  void archive(Archive& /*bytes*/) override {
+    throw InputError("a planar world cannot be saved, as Box2D hides the state of its worlds");
+  }
   PhysicsInspection inspect() const override { return inspect_planar(bodies_.items, plane_); }
   std::vector<ContactForce> contact_forces() const override {
     return find_contact_forces(world_, bodies_.items, plane_, last_h_s_);

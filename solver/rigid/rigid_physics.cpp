@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/archive.h"
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/model/work_log.h"
@@ -43,6 +44,7 @@ class RigidPhysics final : public Physics {
   }
 
   std::unique_ptr<Physics> copy() const override { return std::make_unique<RigidPhysics>(*this); }
+  void archive(Archive& bytes) override;
   std::vector<BodyId> replace(std::span<const BodyId> remove,
                               std::span<const BodyDesc> add) override;
   void edit(const BodyEdit& edit) override;
@@ -125,6 +127,15 @@ class RigidPhysics final : public Physics {
   std::vector<ShapeSlot> strays_;  ///< See BroadPhase::strays(); of the present poses.
   bool queries_valid_ = false;     ///< Nothing has moved since `strays_` were found.
 };
+
+void RigidPhysics::archive(Archive& bytes) {
+  // The other members are found anew in every step.
+  bytes(bodies_, shapes_, contacts_, joints_, broad_phase_, dense_clusters_, speculative_contacts_,
+        paused_, last_h_s_, frozen_, skipped_, reach_);
+  if (!bytes.reads()) return;
+  contacts_of_bodies_.clear();
+  queries_valid_ = false;
+}
 
 std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
                                           std::span<const BodyDesc> add) {

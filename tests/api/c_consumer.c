@@ -393,6 +393,12 @@ static void refusals(void) {
   EXPECT(!sunder_world_is_valid(null_world) && !sunder_world_is_valid(foreign));
 
   REFUSED(sunder_world_copy(gone, &world), HANDLE, "sunder_world_copy(): world does not exist");
+  const void* bytes;
+  size_t size;
+  REFUSED(sunder_world_save(gone, &bytes, &size), HANDLE,
+          "sunder_world_save(): world does not exist");
+  REFUSED(sunder_world_restore("x", 1, 0, &world), INPUT,
+          "sunder_world_restore(): bytes: these bytes are no saved state");
   REFUSED(sunder_world_create(NULL, &world), ARGUMENT, "def is null");
   REFUSED(sunder_world_create(&world_def, NULL), ARGUMENT, "world is null");
   world_def.threads = -1;

@@ -121,6 +121,32 @@ TEST(CStates, OfACopyGoOnWithTheSameBits) {
   EXPECT_EQ(sunder_world_destroy(copy), SUNDER_OK);
 }
 
+TEST(CStates, OfARestoredWorldGoOnWithTheSameBits) {
+  const SunderWorld world = c_world("glass", 1);
+  SunderMaterial stone{}, added{};
+  ASSERT_EQ(sunder_world_material(world, "stone", &stone), SUNDER_OK);
+  SunderMaterialDef def;
+  ASSERT_EQ(sunder_world_material_def(world, stone, &def), SUNDER_OK);
+  ASSERT_EQ(sunder_world_add_material(world, &def, &added), SUNDER_OK);
+  c_hash(world, 20);
+  const void* bytes = nullptr;
+  size_t size = 0;
+  ASSERT_EQ(sunder_world_save(world, &bytes, &size), SUNDER_OK) << sunder_last_error();
+  const std::vector<char> kept(static_cast<const char*>(bytes),
+                               static_cast<const char*>(bytes) + size);
+  const std::string expected = c_hash(world, 20);
+  EXPECT_EQ(sunder_world_destroy(world), SUNDER_OK);
+  SunderWorld restored{};
+  ASSERT_EQ(sunder_world_restore(kept.data(), kept.size(), 1, &restored), SUNDER_OK)
+      << sunder_last_error();
+  EXPECT_EQ(c_hash(restored, 20), expected);
+  EXPECT_EQ(sunder_world_material_def(restored, added, &def), SUNDER_OK);
+  EXPECT_EQ(sunder_world_destroy(restored), SUNDER_OK);
+  EXPECT_EQ(sunder_world_restore(kept.data(), kept.size() - 1, 1, &restored), SUNDER_ERROR_INPUT);
+  EXPECT_EQ(std::string(sunder_last_error()),
+            "sunder_world_restore(): bytes: the saved state is truncated or damaged");
+}
+
 TEST(CThreads, RunWorldsAtOnceAndCallsForOneWorldOneAfterAnother) {
   const SunderWorld alone = c_world("glass", 1);
   const std::string expected = c_hash(alone, 30);

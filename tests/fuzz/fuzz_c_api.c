@@ -474,12 +474,26 @@ static void copy_world(void) {
   worlds[at] = copy;
 }
 
+static void restore_world(void) {
+  const uint32_t at = below(kWorlds);
+  SunderWorld restored;
+  const void* bytes;
+  size_t size;
+  const SunderWorld world = any_world();
+  if (!done(sunder_world_save(world, one_in(20) ? NULL : &bytes, &size))) return;
+  if (one_in(4)) --size;
+  if (!done(sunder_world_restore(bytes, size, 0, &restored))) return;
+  if (hash_of(restored) != hash_of(world)) fail("a restored world in another state");
+  sunder_world_destroy(worlds[at]);
+  worlds[at] = restored;
+}
+
 // Calls one function, or a few.
 static void call(void) {
   const SunderWorld world = any_world();
   const uint32_t which = below(100);
   if (which < 1)
-    one_in(3) ? copy_world() : make_world();
+    one_in(3) ? copy_world() : one_in(3) ? restore_world() : make_world();
   else if (which < 3)
     make_asset();
   else if (which < 10)

@@ -2,6 +2,7 @@
 """Worlds in Python: every call, arrays, threads and interrupts."""
 import gc
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -148,7 +149,7 @@ class Worlds(unittest.TestCase):
 
     def test_add_materials(self):
         world = sunder.World(sunder.Scene())
-        index = world.add_material(sunder.Material("lead", like="steel"))
+        index = world.add(sunder.Material("lead", like="steel"))
         self.assertEqual(world.materials[index], "lead")
         self.assertIn(world.add_ball((0, 2, 0), material="lead"), world)
         self.assertIn(world.add_solid(sunder.Asset("box:1,1,1", index), origin=(3, 2, 0)), world)
@@ -179,6 +180,22 @@ class Worlds(unittest.TestCase):
         for change in (lambda key: world.remove(key), lambda key: world.step(), lambda key: world.frame()):
             self.assertRaisesRegex(RuntimeError, "during a query", world.cast, *ray, accepts=change)
         world.remove(box)
+
+    def test_go_on_alike_when_restored(self):
+        world = sunder.World(sunder.load_scene("glass"))
+        world.add(sunder.Material("thick glass", like="glass"))
+        world.run(0.3)
+        saved = world.save()
+        restored = sunder.World.restore(saved, threads=1)
+        pickled = pickle.loads(pickle.dumps(world))
+        self.assertEqual(saved, restored.save())
+        self.assertEqual(world.materials, restored.materials)
+        for other in (world, restored, pickled):
+            other.run(0.2)
+        self.assertEqual(world.state_hash(), restored.state_hash())
+        self.assertEqual(world.state_hash(), pickled.state_hash())
+        with self.assertRaisesRegex(sunder.InputError, "restore.*damaged"):
+            sunder.World.restore(saved[:-1])
 
     def test_go_on_alike_in_a_copy(self):
         world = sunder.World(sunder.load_scene("brick_wall"))

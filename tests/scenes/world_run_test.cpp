@@ -1,11 +1,15 @@
 // A program that acts on a running world and asks it.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <set>
+#include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -549,10 +553,65 @@ TEST(World, WhatHappensInACopyDoesNotTouchTheOther) {
   EXPECT_EQ(hash_of(world), hash_of(as_before));
 }
 
-TEST(World, APlanarWorldRefusesToBeCopied) {
+// Walls in the middle of their fall, a ball on a rope, bending steel, dust in the air, a ground of
+// meshes, a blast, and an empty world.
+TEST(World, ARestoredWorldGoesOnWithTheSameBits) {
+  const std::pair<const char*, double> cases[] = {
+      {"brick_wall", 0}, {"brick_wall", 1.2}, {"house", 0.8},  {"wrecking_ball", 1.5},
+      {"steel_hall", 2}, {"glass", 0.4},      {"hillside", 1}, {"column_row", 1},
+      {"vase", 0.6},     {"blast", 1.2}};
+  for (const auto& [name, time_s] : cases) {
+    World world = make_world(load_scene(name));
+    world.report_hits(1);
+    run(world, time_s);
+    const std::vector<std::byte> saved = save_world(world);
+    World restored = restore_world(saved);
+    EXPECT_TRUE(save_world(restored) == saved) << name;
+    EXPECT_EQ(restored.time_s(), world.time_s());
+    EXPECT_EQ(restored.events().hits.size(), world.events().hits.size());
+    ASSERT_EQ(hash_of(restored), hash_of(world)) << name;
+    restored.set_threads(1);
+    for (int i = 0; i < 40; ++i) {
+      world.step(kFrame_s);
+      restored.step(kFrame_s);
+      ASSERT_EQ(hash_of(restored), hash_of(world)) << name << ", frame " << i;
+      ASSERT_EQ(restored.events().hits.size(), world.events().hits.size()) << name;
+    }
+    EXPECT_TRUE(save_world(restored) == save_world(world)) << name;
+  }
+}
+
+TEST(World, OtherBytesAreNotRestored) {
+  World world = make_world(empty_scene());
+  world.add(box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  const std::vector<std::byte> saved = save_world(world);
+  const auto refuses = [](std::span<const std::byte> bytes, const char* reason) {
+    try {
+      restore_world(bytes);
+      ADD_FAILURE() << "restored: " << reason;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(reason));
+    }
+  };
+  refuses({}, "no saved state");
+  refuses(std::as_bytes(std::span("[scene]\ndescription = \"x\"\n")), "no saved state");
+  for (std::size_t size = 24; size < saved.size(); size += 97)
+    refuses(std::span(saved).first(size), "truncated or damaged");
+  for (std::size_t at = 30; at < saved.size(); at += 31) {
+    std::vector<std::byte> other = saved;
+    other[at] ^= std::byte{4};
+    refuses(other, "truncated or damaged");
+  }
+  std::vector<std::byte> newer = saved;
+  newer[13] = std::byte{'9'};
+  refuses(newer, "only that version can restore it");
+}
+
+TEST(World, APlanarWorldRefusesToBeCopiedOrSaved) {
   const World world = make_world(parse_scene(
       "[scene]\ndescription = \"x\"\nplanar = true\n[[ball]]\nposition = [0, 5, 0]\n", "x.toml"));
   EXPECT_THROW(world.copy(), InputError);
+  EXPECT_THROW(save_world(world), InputError);
 }
 
 TEST(World, ABadCallNamesItselfAndItsArgumentAndChangesNothing) {

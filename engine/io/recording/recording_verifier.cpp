@@ -33,7 +33,8 @@ std::string first_difference(const Frame& now, const Frame& then,
 void RecordingVerifier::take(const FramePtr& frame) {
   if (!difference_.empty()) return;
   const std::string name = "frame " + std::to_string(frame->index) + ": ";
-  const FramePtr then = take_.next();
+  FramePtr then = take_.next();
+  while (same_ == 0 && then && then->index < frame->index) then = take_.next();
   if (!then) {
     difference_ = name + (take_.damage().empty() ? "the recording has ended" : take_.damage());
   } else if (then->index != frame->index) {

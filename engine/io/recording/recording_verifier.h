@@ -7,7 +7,8 @@
 
 namespace sunder {
 
-/// A sink that compares each frame with the next frame of a recording.
+/// A sink that compares each frame with the next frame of a recording. A run that was resumed may
+/// begin later than the recording.
 class RecordingVerifier final : public FrameSink {
  public:
   /// `take` is read from its current position and must outlive this object.

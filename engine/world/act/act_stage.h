@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "engine/world/act/agenda.h"
@@ -49,6 +50,11 @@ class ActStage {
 
   /// Mass of the shots to come.
   double mass_to_come_kg() const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.shots_, self.blasts_to_come_, self.removals_, self.drives_, self.moves_,
+                    self.blasts_, self.impacts_, self.next_blast_);
+  }
 
  private:
   struct PlannedShot {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Agenda {
     return due;
   }
   std::span<const Act> to_come() const { return acts_; }
+
+  static auto fields(auto& self) { return std::tie(self.acts_); }
 
  private:
   std::vector<Act> acts_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "engine/world/actors/world_state.h"
@@ -21,6 +22,8 @@ class Moves {
   /// Releases the bodies that are due, and gives the others the velocity to their pose at the end
   /// of the step.
   void update(WorldState& world);
+
+  static auto fields(auto& self) { return std::tie(self.active_); }
 
  private:
   struct Active {

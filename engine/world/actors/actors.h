@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,8 @@ class Actors {
   auto end() { return all_.end(); }
   auto begin() const { return all_.begin(); }
   auto end() const { return all_.end(); }
+
+  static auto fields(auto& self) { return std::tie(self.all_, self.keys_, self.next_key_); }
 
  private:
   std::vector<Actor> all_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
 #include "engine/model/scene.h"
 
@@ -47,6 +48,11 @@ struct Clock {
   /// Returns true if the current step is the last of its frame.
   bool ends_frame() const {
     return step + 1 == first_step + static_cast<std::uint64_t>(steps_per_frame);
+  }
+
+  static auto fields(auto& self) {
+    return std::tie(self.dt_s, self.substeps, self.steps_per_frame, self.step, self.frame,
+                    self.since_s, self.since_step, self.first_step);
   }
 
   double since_s = 0;            ///< Time at which steps became `dt_s` long.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/geometry/mitre.h"
@@ -111,6 +112,8 @@ class Joints {
   std::vector<ConvexSlot> hinged_convexes(std::uint32_t key) const;
   /// Returns an existing joint.
   Live& at(JointId joint);
+
+  static auto fields(auto& self) { return std::tie(self.live_, self.lost_, self.next_key_); }
 
  private:
   static Live make_hinge(Physics& physics, const Actor& a, const Actor& b, Hinge hinge);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
+#include "engine/base/archive.h"
 #include "engine/world/actors/world_state.h"
 
 namespace sunder {
@@ -48,34 +50,46 @@ BodyDesc make_body_desc(std::span<const Facet> facets, const Material& material,
   return body;
 }
 
-void add_mesh(const GroundMesh& mesh, WorldState& world) {
+/// Adds a mesh to the world, and its facets to `all`.
+void add_mesh(const GroundMesh& mesh, WorldState& world, std::vector<Facet>& all) {
   std::vector<Facet> facets = make_facets(mesh);
   std::vector<BodyDesc> bodies;
   for (std::size_t first = 0; first < facets.size(); first += kFacetsPerBody) {
     const std::size_t count = std::min(kFacetsPerBody, facets.size() - first);
     bodies.push_back(make_body_desc(std::span(facets).subspan(first, count),
-                                    world.material(mesh.material),
-                                    world.landscape.facets.size() + first));
+                                    world.material(mesh.material), all.size() + first));
   }
   world.physics->replace({}, bodies);
   for (const std::shared_ptr<const Mesh>& drawn : make_meshes(mesh))
     world.landscape.meshes.push_back(world.meshes.add(drawn));
-  std::ranges::move(facets, std::back_inserter(world.landscape.facets));
+  std::ranges::move(facets, std::back_inserter(all));
+}
+
+void find_obstacles(Landscape& landscape) {
+  landscape.obstacles.clear();
+  for (const Facet& facet : *landscape.facets) {
+    ObstacleShape shape;
+    shape.hull = &facet.prism;
+    shape.box_R = bounds(facet.prism);
+    shape.volume_m3 = mass_properties(facet.prism).volume_m3;
+    shape.facet = true;
+    landscape.obstacles.push_back(shape);
+  }
 }
 
 }  // namespace
 
 void add_ground(WorldState& world) {
   add_plane(world.scene.ground, *world.physics);
-  for (const GroundMesh& mesh : world.scene.ground.meshes) add_mesh(mesh, world);
-  for (const Facet& facet : world.landscape.facets) {
-    ObstacleShape shape;
-    shape.hull = &facet.prism;
-    shape.box_R = bounds(facet.prism);
-    shape.volume_m3 = mass_properties(facet.prism).volume_m3;
-    shape.facet = true;
-    world.landscape.obstacles.push_back(shape);
-  }
+  std::vector<Facet> facets;
+  for (const GroundMesh& mesh : world.scene.ground.meshes) add_mesh(mesh, world, facets);
+  world.landscape.facets = std::make_shared<const std::vector<Facet>>(std::move(facets));
+  find_obstacles(world.landscape);
+}
+
+void archive(Archive& bytes, Landscape& landscape) {
+  bytes(landscape.facets, landscape.meshes);
+  if (bytes.reads()) find_obstacles(landscape);
 }
 
 }  // namespace sunder

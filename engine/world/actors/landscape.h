@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/model/facets.h"
@@ -10,14 +11,19 @@
 
 namespace sunder {
 
+class Archive;
 struct WorldState;
 
 /// Meshes of the ground: one body in frames, several in the physics.
 struct Landscape {
-  std::vector<Facet> facets;
-  std::vector<ObstacleShape> obstacles;  ///< Shapes of the facets for the particles.
+  /// Shared with copies of the world.
+  std::shared_ptr<const std::vector<Facet>> facets;
+  std::vector<ObstacleShape> obstacles;  ///< Shapes of the facets, for the particles.
   std::vector<MeshIndex> meshes;         ///< Drawn meshes, in W.
 };
+
+/// Writes or reads the meshes of the ground.
+void archive(Archive& bytes, Landscape& landscape);
 
 /// Shape tag of the ground's plane; facets have their index in Landscape::facets.
 inline constexpr std::uint32_t kGroundPlaneTag = 0xffffffff;

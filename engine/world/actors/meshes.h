@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -37,6 +38,11 @@ class Meshes {
   void tidy(const Actors& actors, std::span<const MeshIndex> others);
   /// Returns all meshes for a frame, which do not change afterwards.
   std::shared_ptr<const MeshStore> publish();
+
+  static auto fields(auto& self) {
+    return std::tie(self.store_, self.searched_, self.unused_, self.kept_, self.most_,
+                    self.published_, self.pending_, self.most_pending_);
+  }
 
  private:
   MeshStore& changeable();

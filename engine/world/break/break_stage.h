@@ -14,6 +14,7 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/breaker.h"
@@ -46,6 +47,8 @@ class BreakBudget {
     left_ -= static_cast<std::uint32_t>(std::min<std::uint64_t>(left_, parts));
   }
 
+  static auto fields(auto& self) { return std::tie(self.a_frame_, self.left_, self.untouched_); }
+
  private:
   std::uint32_t a_frame_;
   std::uint32_t left_ = 0;
@@ -74,6 +77,11 @@ class BreakStage {
   void run(WorldState& world, const Breaker& breaker, std::span<const ActorImpact> impacts);
   /// Number of deferred blast impacts and clusters.
   std::uint32_t deferred() const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.budget_, self.unbroken_probes_, self.deferred_blast_impacts_,
+                    self.deferred_impacts_);
+  }
 
  private:
   /// Advances the probes without known loads to their next loads; removes trials without any.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/impact_probe.h"
@@ -50,6 +51,11 @@ class DeferredImpacts {
   }
   /// Number of deferred clusters, after end_step().
   std::uint32_t clusters() const { return clusters_; }
+
+  static auto fields(auto& self) {
+    return std::tie(self.last_step_, self.queue_, self.bodies_, self.driven_, self.next_cluster_,
+                    self.clusters_);
+  }
 
  private:
   /// Defers the bodies that would hit a deferred one in this step, directly or through others.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 #include "engine/model/breaker.h"
 #include "engine/world/actors/world_state.h"
@@ -27,6 +28,10 @@ class LoadStage {
   void run(WorldState& world, const Breaker& breaker);
   /// Number of actors whose load is not evaluated yet.
   std::uint32_t deferred() const { return deferred_; }
+
+  static auto fields(auto& self) {
+    return std::tie(self.work_a_frame_, self.work_left_, self.deferred_);
+  }
 
  private:
   std::int64_t work_a_frame_;   ///< In bond evaluations.

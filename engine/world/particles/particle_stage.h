@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/copied_ptr.h"
@@ -31,6 +32,10 @@ class ParticleStage {
   void run(const WorldState& world, const Exposed& exposed);
   /// Adds debris and dust to a frame, and counts a limit reached since the last frame.
   void show(Frame& frame);
+
+  static auto fields(auto& self) {
+    return std::tie(self.particles_, self.ignored_debris_, self.ignored_dust_);
+  }
 
  private:
   CopiedPtr<Particles> particles_;

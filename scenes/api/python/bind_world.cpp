@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "engine/base/check.h"
@@ -105,6 +107,20 @@ class PythonWorld {
   std::unique_ptr<PythonWorld> copy() {
     World world = unlocked([](World& of) { return of.copy(); });
     return std::unique_ptr<PythonWorld>(new PythonWorld(std::move(world), materials_, warnings_));
+  }
+  py::bytes save() {
+    const auto saved = unlocked([](World& of) { return scenes::save_world(of); });
+    return {reinterpret_cast<const char*>(saved.data()), saved.size()};
+  }
+  static std::unique_ptr<PythonWorld> restore(const py::bytes& saved, int threads) {
+    const auto text = static_cast<std::string_view>(saved);
+    scenes::SimulationOptions options;
+    options.threads = threads;
+    World world = scenes::restore_world(std::as_bytes(std::span(text)), options, "restore()");
+    std::vector<std::string> materials;
+    for (const Material& material : world.materials()) materials.push_back(material.name);
+    return std::unique_ptr<PythonWorld>(new PythonWorld(
+        std::move(world), std::move(materials), std::make_shared<std::vector<std::string>>()));
   }
   Bodies bodies() {
     if (!arrays_) arrays_ = std::make_shared<const BodyArrays>(ask().bodies());
@@ -340,6 +356,14 @@ void bind_time(WorldClass& type) {
           "copy", &PythonWorld::copy,
           "Returns a world in the same state, which goes on with the same bits: to roll back, keep "
           "a copy. A planar world cannot be copied.")
+      .def("save", &PythonWorld::save,
+           "Returns the state as bytes, for restore(); worlds in equal states have equal bytes. A "
+           "planar world cannot be saved. Worlds can be pickled in this way.")
+      .def_static("restore", &PythonWorld::restore, py::arg("saved"), py::arg("threads") = 0,
+                  "Returns a world in the state that save() of the same version has returned, in "
+                  "this or another process; it goes on with the same bits.")
+      .def(py::pickle([](PythonWorld& self) { return self.save(); },
+                      [](const py::bytes& saved) { return PythonWorld::restore(saved, 0); }))
       .def_property_readonly(
           "time_s", [](PythonWorld& self) { return self.ask().time_s(); }, "Time in s.")
       .def_property_readonly(

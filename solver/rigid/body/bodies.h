@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/check.h"
@@ -163,6 +164,10 @@ struct Shapes {
   std::vector<ShapeSlot> of_body(BodySlot body, const Bodies& bodies) const;
   /// Returns the shape of a static body that has a tag. The tags of the body must be unique.
   ShapeSlot with_tag(BodySlot body, std::uint32_t tag) const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.items, self.free_slots, self.static_with_tag_);
+  }
 
  private:
   KeyMap static_with_tag_;  ///< Static shapes by body and tag; the first of each tag.

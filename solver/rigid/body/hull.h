@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,12 @@ class Hull {
   float inner_radius_m() const { return inner_radius_; }
 
   static Vec3f lane(const Wide3& v, std::uint32_t i) { return {v.x[i], v.y[i], v.z[i]}; }
+
+  static auto fields(auto& self) {
+    return std::tie(self.vertices_, self.planes_, self.edges_, self.face_first_, self.corners_,
+                    self.vertex_count_, self.center_, self.reach_, self.core_radius_,
+                    self.inner_radius_);
+  }
 
  private:
   struct HalfEdge {

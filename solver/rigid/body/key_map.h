@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace sunder::solver {
@@ -18,6 +19,8 @@ class KeyMap {
   void insert(std::uint64_t key, std::uint32_t slot);
   void erase(std::uint64_t key);  ///< Erases a key that the map has.
   void expect(std::size_t more);  ///< Reserves memory for `more` keys.
+
+  static auto fields(auto& self) { return std::tie(self.entries_, self.count_); }
 
  private:
   struct Entry {

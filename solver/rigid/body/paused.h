@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,8 @@ class Paused {
     }
     items_.clear();
   }
+
+  static auto fields(auto& self) { return std::tie(self.items_); }
 
  private:
   struct Item {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "solver/rigid/body/slots.h"
@@ -28,6 +29,8 @@ class BoxForest {
   void on_ray(const Ray& ray, const Hit& hit) const {
     for (const BoxTree& tree : trees_) tree.on_ray(ray, hit);
   }
+
+  static auto fields(auto& self) { return std::tie(self.trees_, self.place_); }
 
  private:
   struct Place {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -76,6 +77,8 @@ class BoxTree {
   std::span<const ShapeSlot> leaves() const { return items_; }
   /// Removes a leaf by making its box empty. The tree must not be refitted afterwards.
   void remove_leaf(std::uint32_t leaf);
+
+  static auto fields(auto& self) { return std::tie(self.items_, self.levels_); }
 
  private:
   struct Chunk {

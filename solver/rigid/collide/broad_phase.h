@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "solver/rigid/body/bodies.h"
@@ -72,6 +73,13 @@ class BroadPhase {
   }
   /// Returns the fat boxes of all shapes that have one, in order of slots.
   std::vector<ShapeBox> boxes(const Shapes& shapes, const Bodies& bodies) const;
+
+  static auto fields(auto& self) {
+    return std::tie(self.role_, self.swept_, self.fat_, self.moved_, self.has_skipped_,
+                    self.movers_, self.new_statics_, self.moved_list_, self.half_spaces_,
+                    self.half_space_of_, self.mover_tree_, self.static_forest_,
+                    self.movers_changed_, self.test_all_, self.refits_);
+  }
 
  private:
   enum class Role : std::uint8_t { kAbsent, kMover, kStatic, kHalfSpace };

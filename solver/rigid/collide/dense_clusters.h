@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,8 @@ class DenseClusters {
   /// contacts keep all of theirs. The choice does not depend on the number of threads. Returns true
   /// if contacts were left out.
   bool drop_contacts(std::span<ContactChanges> changes, Contacts& contacts, const Bodies& bodies);
+
+  static auto fields(auto& self) { return std::tie(self.times_); }
 
  private:
   std::uint64_t times_ = 0;

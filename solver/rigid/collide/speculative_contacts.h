@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@ class SpeculativeContacts {
   void invalidate(const Pair& pair) { stale_[pair.body_a] = stale_[pair.body_b] = 1; }
   /// Must be called before a collide clears Bodies::changed.
   void invalidate_changed(const Bodies& bodies);
+
+  static auto fields(auto& self) { return std::tie(self.known_, self.dt_s_, self.stale_); }
 
  private:
   using Keyed = std::pair<std::uint64_t, SpeculativeContact>;

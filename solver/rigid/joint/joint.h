@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/physics.h"
@@ -83,6 +84,11 @@ class Joints {
   /// Returns a joint, which must exist.
   Joint& at(JointId id);
   std::span<const Joint> all() const { return items_; }
+
+  static auto fields(auto& self) {
+    return std::tie(self.items_, self.free_slots_, self.ignored_pairs_, self.ignored_shapes_,
+                    self.broken_);
+  }
 
  private:
   void wake_ends(const Joint& joint, Bodies& bodies) const;
