@@ -53,7 +53,15 @@ target_include_directories(sunder_library INTERFACE
 target_link_libraries(sunder_library INTERFACE sunder_scenes sunder_render)
 set_target_properties(sunder_library PROPERTIES EXPORT_NAME sunder)
 install(TARGETS sunder_library EXPORT sunderTargets)
-install(TARGETS sunder_c EXPORT sunderCTargets)
+install(TARGETS sunder_c EXPORT sunderCTargets LIBRARY COMPONENT library NAMELINK_COMPONENT dev)
+file(RELATIVE_PATH prefix_from_pkgconfig
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(${PROJECT_SOURCE_DIR}/cmake/sunder.pc.in ${PROJECT_BINARY_DIR}/sunder.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/sunder.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tests/golden
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/sunder COMPONENT program
+  FILES_MATCHING PATTERN "*.frame" PATTERN "*.json" PATTERN "*.png" PATTERN "*.toml" PATTERN "*.txt"
+  PATTERN "*.view")
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sunder)
 set(scenes_dir ${CMAKE_INSTALL_DATADIR}/sunder/scenes)
@@ -61,7 +69,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/sunderConfig.cmake.in
   ${PROJECT_BINARY_DIR}/sunderConfig.cmake INSTALL_DESTINATION ${package_dir}
   PATH_VARS scenes_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sunderConfigVersion.cmake
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sunderConfig.cmake
   ${PROJECT_BINARY_DIR}/sunderConfigVersion.cmake DESTINATION ${package_dir})
 install(EXPORT sunderTargets NAMESPACE sunder:: DESTINATION ${package_dir})

@@ -3,6 +3,9 @@
 
 include(GNUInstallDirs)
 
+# Components are packages; what names none is for developers.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/io/file_ending.h"
 #include "render/image/hud.h"
 #include "render/renderer.h"
 
@@ -84,7 +85,7 @@ class SheetSink final : public FrameSink {
 std::unique_ptr<FrameSink> make_sheet_sink(const std::filesystem::path& path, Renderer& renderer,
                                            const SheetFrames& frames, bool captions) {
   const std::string asked = "--sheet " + std::to_string(frames.count) + ": ";
-  if (path.extension() != ".png") {
+  if (!has_ending(path.string(), ".png")) {
     throw InputError(asked + path.string() + " does not end in .png; a sheet is one PNG image");
   }
   const std::uint64_t available = frames.last - frames.first + 1;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/io/file_ending.h"
 #include "render/image/encoder.h"
 #include "render/image/exr.h"
 #include "render/renderer.h"
@@ -136,8 +137,8 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
                                              bool resume, int frames_per_s) {
   const std::string extension = path.extension().string();
-  const bool is_video = extension == ".mp4" || extension == ".webm";
-  if (is_video || extension == ".png") {
+  const bool is_video = has_ending(extension, ".mp4") || has_ending(extension, ".webm");
+  if (is_video || has_ending(extension, ".png")) {
     if (resume) throw InputError(path.string() + ": only images in a folder (DIR/) can be resumed");
     const RenderOptions& options = renderer.options();
     if (is_video && (options.transparent || !options.layers.empty())) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/base/check.h"
+#include "engine/io/file_ending.h"
 #include "scenes/file/keys.h"
 #include "scenes/file/text_file.h"
 #include "scenes/load.h"
@@ -49,7 +50,7 @@ fs::path scenes_folder(const fs::path& folder) {
 }
 
 fs::path scene_file(const std::string& file_or_name, const fs::path& folder) {
-  if (fs::is_regular_file(file_or_name) || file_or_name.ends_with(".toml")) return file_or_name;
+  if (fs::is_regular_file(file_or_name) || has_ending(file_or_name, ".toml")) return file_or_name;
   std::vector<std::string> names;
   try {
     for (const fs::path& file : catalog_files(folder)) {

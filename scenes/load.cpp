@@ -11,6 +11,7 @@
 #include "engine/model/checks/scene_check.h"
 #include "scenes/file/body.h"
 #include "scenes/file/builtin_materials.h"
+#include "scenes/file/error_list.h"
 #include "scenes/file/ground_mesh.h"
 #include "scenes/file/joint.h"
 #include "scenes/file/moved_part.h"
@@ -47,6 +48,17 @@ class Loader {
     std::size_t first = 0, count = 0;
   };
 
+  /// Calls `work`, and keeps its InputError for the end of the file.
+  template <class Work>
+  void attempt(const Work& work) {
+    errors_.collect(work);
+  }
+  template <class Work>
+  void each_table(const Value& parent, std::string_view key, const Work& work) {
+    attempt([&] {
+      for (const Value* table : tables(parent, key)) attempt([&] { work(*table); });
+    });
+  }
   template <class T>
   void read_table(const Keys<T>& keys, std::string_view name, T& object) {
     if (const Value* table = find(document_, name)) {
@@ -55,6 +67,8 @@ class Loader {
   }
   void read_accuracy();
   void find_substeps();
+  void add_material(const Value& table, const std::filesystem::path& folder,
+                    std::set<std::string>& seen);
   void add_solid(const Value& table);
   void add_body(const Value& table);
   void add_ball(const Value& table);
@@ -69,36 +83,45 @@ class Loader {
   Scene scene_;
   std::vector<SolidGroup> groups_;
   Names names_;
+  ErrorList errors_;
 };
 
 Scene Loader::load(const LoadOptions& options) {
   const Schema& s = schema();
-  check_known(document_, s.top.table, {s.top.keys});
+  attempt([&] { check_known(document_, s.top.table, {s.top.keys}); });
   const Value* scene = find(document_, "scene");
-  if (!scene) throw InputError(document_.where + ": missing table [scene]");
-  read(s.scene, *scene, {}, scene_);
+  attempt([&] {
+    if (!scene) throw InputError(document_.where + ": missing table [scene]");
+    read(s.scene, *scene, {}, scene_);
+  });
   const Preset& preset =
       find_named(presets(), options.preset, "--preset " + options.preset + ": unknown preset");
   scene_.accuracy = preset.accuracy;
   scene_.solver.sweeps = preset.sweeps;
   scene_.limits.full_detail = preset.full_detail;
   scene_.limits.chip_size_factor = preset.chip_size_factor;
-  read_accuracy();
-  read_table(s.solver, "solver", scene_.solver);
-  read_table(s.limits, "limits", scene_.limits);
-  read_table(s.ground, "ground", scene_.ground);
-  read_view(document_, scene_);
-  add_materials(document_, folder_);
-  if (const Value* ground = find(document_, "ground"))
-    for (const Value* table : tables(*ground, "mesh")) read_ground_mesh(*table, folder_, scene_);
-  for (const Value* table : tables(document_, "solid")) add_solid(*table);
-  for (const Value* table : tables(document_, "body")) add_body(*table);
-  for (const Value* table : tables(document_, "ball")) add_ball(*table);
-  name_solids();
-  check_references();
-  for (const Value* table : tables(document_, "joint"))
-    scene_.joints.push_back(read_joint(*table, scene_));
-  if (const Value* table = find(document_, "script")) read_script(*table, scene_);
+  attempt([&] { read_accuracy(); });
+  attempt([&] { read_table(s.solver, "solver", scene_.solver); });
+  attempt([&] { read_table(s.limits, "limits", scene_.limits); });
+  attempt([&] { read_table(s.ground, "ground", scene_.ground); });
+  attempt([&] { read_view(document_, scene_); });
+  attempt([&] { add_materials(document_, folder_); });
+  if (const Value* ground = find(document_, "ground")) {
+    each_table(*ground, "mesh",
+               [&](const Value& table) { read_ground_mesh(table, folder_, scene_); });
+  }
+  each_table(document_, "solid", [&](const Value& table) { add_solid(table); });
+  each_table(document_, "body", [&](const Value& table) { add_body(table); });
+  each_table(document_, "ball", [&](const Value& table) { add_ball(table); });
+  errors_.collect_keys([&] { name_solids(); });
+  errors_.collect_keys([&] { check_references(); });
+  attempt([&] {
+    for (const Value* table : tables(document_, "joint"))
+      errors_.collect_keys([&] { scene_.joints.push_back(read_joint(*table, scene_)); });
+  });
+  if (const Value* table = find(document_, "script"))
+    attempt([&] { read_script(*table, scene_, errors_); });
+  errors_.throw_any();
   find_substeps();
   if (scene_.planar) check_planar(scene_, find(*scene, "planar")->where);
   std::size_t bodies = scene_.solids.size() + scene_.balls.size() + scene_.shots.size();
@@ -152,38 +175,61 @@ void read_crumbling(const Value& table, DebrisEmission& crumbling) {
 
 /// Adds the materials of a document to the scene; each replaces an earlier one of its name.
 void Loader::add_materials(const Value& document, const std::filesystem::path& folder) {
-  const Schema& s = schema();
   std::set<std::string> seen;
-  for (const Value* table : tables(document, "material")) {
-    check_known(*table, s.material.table, {s.material_head.keys, s.material.keys});
-    MaterialHead head;
-    read_keys(*table, s.material.table, s.material_head.keys, {}, &head);
-    if (!seen.insert(head.name).second) {
-      throw InputError(table->where + ": duplicate [[material]] '" + head.name + "'");
-    }
-    std::vector<Material>& all = scene_.materials;
-    const auto named = [&](const std::string& name) {
-      return std::find_if(all.begin(), all.end(),
-                          [&](const Material& m) { return m.name == name; });
-    };
+  ErrorList errors;
+  for (const Value* table : tables(document, "material"))
+    errors.collect([&] { add_material(*table, folder, seen); });
+  errors.throw_any();
+}
+
+/// Adds a material. If some of its keys are wrong, a material of its name is added nevertheless, so
+/// that the solids of it can be checked.
+void Loader::add_material(const Value& table, const std::filesystem::path& folder,
+                          std::set<std::string>& seen) {
+  const Schema& s = schema();
+  std::vector<Material>& all = scene_.materials;
+  const auto named = [&](const std::string& name) {
+    return std::find_if(all.begin(), all.end(), [&](const Material& m) { return m.name == name; });
+  };
+  MaterialHead head;
+  Material material;
+  ErrorList errors;
+  errors.collect([&] {
+    check_known(table, s.material.table, {s.material_head.keys, s.material.keys});
+  });
+  errors.collect([&] {
+    read_keys(table, s.material.table, s.material_head.keys, {}, &head);
+    if (!seen.insert(head.name).second)
+      throw InputError(table.where + ": duplicate [[material]] '" + head.name + "'");
     const auto parent = named(head.like.empty() ? head.name : head.like);
-    if (!head.like.empty()) find_material(head.like, find(*table, "like")->where, all);
-    Material material = parent == all.end() ? Material() : *parent;
-    material.name = head.name;
-    read_keys(*table, s.material.table, s.material.keys, {}, &material);
-    check_strengths(*table, material);
-    if (const Value* v = find(*table, "pattern")) read_pattern(*v, folder, material.pattern);
-    read_stronger(*table, folder, material);
-    if (const Value* v = find(*table, "crumbling")) read_crumbling(*v, material.crumbling);
-    if (const Value* v = find(*table, "surface")) read(s.look, *v, {}, material.surface);
-    if (const Value* v = find(*table, "interior")) read(s.look, *v, {}, material.interior);
-    const auto namesake = named(head.name);
-    if (namesake == all.end()) {
-      all.push_back(material);
-    } else {
-      *namesake = material;
-    }
+    if (!head.like.empty()) find_material(head.like, find(table, "like")->where, all);
+    if (parent != all.end()) material = *parent;
+  });
+  material.name = head.name;
+  errors.collect([&] {
+    read_keys(table, s.material.table, s.material.keys, {}, &material);
+    check_strengths(table, material);
+  });
+  errors.collect([&] {
+    if (const Value* v = find(table, "pattern")) read_pattern(*v, folder, material.pattern);
+    read_stronger(table, folder, material);
+  });
+  errors.collect([&] {
+    if (const Value* v = find(table, "crumbling")) read_crumbling(*v, material.crumbling);
+  });
+  for (const auto& [key, look] :
+       {std::pair{"surface", &material.surface}, {"interior", &material.interior}}) {
+    errors.collect([&, name = key, to = look] {
+      if (const Value* v = find(table, name)) read(s.look, *v, {}, *to);
+    });
   }
+  const auto namesake = named(head.name);
+  if (namesake != all.end()) {
+    *namesake = material;
+  } else if (!head.name.empty()) {
+    all.push_back(material);
+  }
+  errors.throw_any();
 }
 
 /// Returns the solids of pieces, one for each island and copy, in the frame S of the structure.
@@ -228,11 +274,17 @@ void anchor(std::vector<Piece>& pieces, Anchored how, const Value& table,
 void Loader::add_solid(const Value& table) {
   const Keys<SolidHead>& keys = schema().solid;
   SolidHead head;
-  read_keys(table, keys.table, keys.keys, {}, &head);
-  const std::vector<Copy> copies = read_copies(table, keys.table);
-  std::vector<Piece> pieces =
-      read_structure(table, keys.table, head.structure, {keys.keys, placement_keys().keys},
-                     {scene_.materials, folder_, scene_.appearances, scene_.warnings});
+  std::vector<Copy> copies;
+  std::vector<Piece> pieces;
+  ErrorList errors;
+  errors.collect([&] { read_keys(table, keys.table, keys.keys, {}, &head); });
+  errors.collect([&] { copies = read_copies(table, keys.table); });
+  if (head.structure.empty()) errors.throw_any();
+  errors.collect([&] {
+    pieces = read_structure(table, keys.table, head.structure, {keys.keys, placement_keys().keys},
+                            {scene_.materials, folder_, scene_.appearances, scene_.warnings});
+  });
+  errors.throw_any();
   std::size_t made = 0, parts = 0;
   for (const Piece& piece : pieces) {
     made += piece.copies.size();

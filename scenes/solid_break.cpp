@@ -11,6 +11,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/io/file_ending.h"
 #include "fracture/adjacency/compound_builder.h"
 #include "fracture/fracture.h"
 #include "fracture/vacd/vacd.h"
@@ -151,7 +152,7 @@ std::vector<double> numbers_in(std::string_view text, char between) {
 }
 
 PatternSpec parse_pattern(const std::string& text, const std::string& option) {
-  if (text.ends_with(".obj") || std::filesystem::is_regular_file(text)) {
+  if (has_ending(text, ".obj") || std::filesystem::is_regular_file(text)) {
     PatternSpec pattern;
     pattern.kind = PatternSpec::Kind::kFile;
     pattern.file = text;

@@ -28,7 +28,7 @@ from pathlib import Path
 
 MAX_README_LINES = 120
 COMMANDS = ("list", "check", "simulate", "render", "bench", "trade", "fracture", "vacd", "hull",
-            "golden")
+            "golden", "doctor")
 GOLDEN = "stack"  # the quickest to test
 
 # Sections of docs/cli.md, beside its own, that have options of a command.
@@ -40,6 +40,8 @@ SYNTAX = {
     "sunder list [--keys]": ["sunder list", "sunder list --keys"],
     "sunder check SCENE...": ["sunder check stack glass"],
     "sunder simulate SCENE": ["sunder simulate stack"],
+    "sunder simulate --resume FILE":
+        ["sunder simulate stack --save-at 0 stack.state", "sunder simulate --resume stack.state"],
     "sunder render SCENE|X.take|X.frame -o X.mp4|X.webm|X.png|DIR/":
         ["sunder render stack -o x.png", "sunder render house.take -o frames/",
          "sunder render tests/golden/stack.frame -o x.webm"],
@@ -54,6 +56,7 @@ SYNTAX = {
          "sunder vacd tetrahedron.obj --nodes set.nodes -o x.png",
          "sunder vacd tetrahedron.obj --convexes 2 -o pieces/"],
     "sunder hull MESH --vertices N": ["sunder hull box:1,1,1 --vertices 8"],
+    "sunder doctor": ["sunder doctor"],
     "sunder golden test|report [NAME...]":
         ["sunder golden test", "sunder golden report " + GOLDEN],
     "sunder golden accept NAME...": ["sunder golden accept " + GOLDEN],
@@ -63,14 +66,14 @@ SYNTAX = {
         [f"sunder golden record other tests/golden/{GOLDEN}.frame --size 64x48 --folder out/goldens"],
 }
 
-# Commands whose JSON docs/json.md describes. The last two need an OpenGL context.
+# Commands whose JSON docs/json.md describes. The last three need an OpenGL context.
 JSON_COMMANDS = (
     "list", "check stack", "check wrong.toml", "simulate glass --frames 80",
     "bench glass --frames 60 --repeats 1 --warm-up 0 --features --set scene.seed=2",
     "trade stack --frames 2 --seeds 1 -o out/trade",
     "fracture tetrahedron.obj --pattern voronoi:8", "vacd tetrahedron.obj --nodes 2",
     "hull box:1,1,1 --vertices 8", "render stack -o x.png --frames 0 --size 64x48",
-    "golden test " + GOLDEN)
+    "golden test " + GOLDEN, "doctor")
 
 # Paths in the JSON whose keys are names of stages, parts of work, features or keys of a scene.
 NAMES = re.compile(r"(.*/)?(stages|stages_ms|stages_cpu_ms|repeat_ms|modelled|features|set|work|"

@@ -6,11 +6,16 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "render/gl/tried_contexts.h"
 
 namespace sunder::render {
 namespace {
 
-using Maker = std::function<std::unique_ptr<GlContext>()>;
+/// A kind of context by its name for --gl, and the function that makes it.
+struct Maker {
+  std::string kind;
+  std::function<std::unique_ptr<GlContext>()> make;
+};
 
 /// Returns the index N of "egl-device:N", or -1 for any other text.
 int device_index(const std::string& wanted) {
@@ -25,25 +30,27 @@ int device_index(const std::string& wanted) {
 
 /// Returns the functions that may make a `wanted` context, best first; empty for an unknown name.
 std::vector<Maker> makers(const std::string& wanted) {
-  if (wanted == "egl-surfaceless") return {make_egl_surfaceless};
-  if (wanted == "osmesa") return {make_osmesa};
-  if (const int index = device_index(wanted); index >= 0) {
-    return {[index] { return make_egl_device(index); }};
-  }
+  const Maker surfaceless{"egl-surfaceless", make_egl_surfaceless};
+  const Maker osmesa{"osmesa", make_osmesa};
+  const auto device = [](int index) {
+    return Maker{"egl-device:" + std::to_string(index), [index] { return make_egl_device(index); }};
+  };
+  if (wanted == surfaceless.kind) return {surfaceless};
+  if (wanted == osmesa.kind) return {osmesa};
+  if (const int index = device_index(wanted); index >= 0) return {device(index)};
   if (wanted != "auto") return {};
 
   const std::vector<bool> hardware = egl_devices_hardware();
   std::vector<Maker> list;
   const auto add_devices = [&](bool kind) {
     for (std::size_t i = 0; i < hardware.size(); ++i) {
-      if (hardware[i] == kind)
-        list.emplace_back([i] { return make_egl_device(static_cast<int>(i)); });
+      if (hardware[i] == kind) list.push_back(device(static_cast<int>(i)));
     }
   };
   add_devices(true);
-  list.emplace_back(make_egl_surfaceless);
+  list.push_back(surfaceless);
   add_devices(false);
-  list.emplace_back(make_osmesa);
+  list.push_back(osmesa);
   return list;
 }
 
@@ -71,9 +78,9 @@ std::unique_ptr<GlContext> make_context(const std::string& wanted) {
     throw InputError("--gl " + wanted + ": expected auto, egl-device:N, egl-surfaceless or osmesa");
   }
   std::string reasons;
-  for (const Maker& make : list) {
+  for (const Maker& maker : list) {
     try {
-      return make();
+      return maker.make();
     } catch (const InputError& error) {
       reasons += "\n  ";
       reasons += error.what();
@@ -81,6 +88,20 @@ std::unique_ptr<GlContext> make_context(const std::string& wanted) {
   }
   throw InputError("--gl " + wanted + ": no OpenGL context could be created; tried:" + reasons +
                    "\nOn Debian or Ubuntu: apt-get install libegl1 libgl1-mesa-dri");
+}
+
+std::vector<TriedContext> try_contexts() {
+  std::vector<TriedContext> tried;
+  for (const Maker& maker : makers("auto")) {
+    TriedContext& result = tried.emplace_back();
+    result.kind = maker.kind;
+    try {
+      result.description = maker.make()->description();
+    } catch (const InputError& error) {
+      result.reason = error.what();
+    }
+  }
+  return tried;
 }
 
 }  // namespace sunder::render

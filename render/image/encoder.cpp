@@ -19,6 +19,7 @@
 
 #include "engine/base/check.h"
 #include "engine/io/bytes.h"
+#include "engine/io/file_ending.h"
 
 extern char** environ;
 
@@ -101,7 +102,7 @@ Encoder::Encoder(const std::filesystem::path& path, int width, int height, int f
   }
   input_ = ends[0];
   const int error =
-      spawn(arguments(temporary_, path.extension() == ".webm", width, height, frames_per_s),
+      spawn(arguments(temporary_, has_ending(path.string(), ".webm"), width, height, frames_per_s),
             ends[1], log_, pid_);
   ::close(ends[1]);
   if (error == 0) return;
@@ -162,8 +163,10 @@ void Encoder::fail() {
   std::filesystem::remove(temporary_, ignored);
   std::array<char, 2000> words = {};
   const ssize_t size = ::pread(log_, words.data(), words.size() - 1, 0);
-  throw FileError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " +
-                  (size > 0 ? words.data() : "no error message"));
+  const std::string reason = size > 0 ? words.data() : "no error message";
+  if (reason.starts_with(temporary_.string() + ":"))
+    throw FileError(path_.string() + ": cannot be written; check the folder and its permissions");
+  throw FileError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " + reason);
 }
 
 }  // namespace sunder::render

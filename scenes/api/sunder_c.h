@@ -65,7 +65,7 @@ SUNDER_API const char* sunder_result_name(SunderResult result);
 /// the function and names the argument; empty if none failed. Valid until the next failure.
 SUNDER_API const char* sunder_last_error(void);
 
-/// Returns the version, as in "0.1.0".
+/// Returns the version, as in "1.0.0".
 SUNDER_API const char* sunder_version(void);
 
 /// Functions that replace malloc() and free(). Both are called by any thread, with the user pointer

@@ -258,7 +258,11 @@ int bench(const BenchOptions& options) {
   if (!options.against.empty()) old = measured.others;
   if (options.accept && stopped == 0) {
     scenes::accept_states(scenes, book);
-    write_file(options.hashes, scenes::format_hashes(book));
+    const std::string installed = installed_goldens_folder() + "/hashes.txt";
+    const std::string file =
+        options.hashes == installed ? own_goldens_folder() + "/hashes.txt" : options.hashes;
+    write_file(file, scenes::format_hashes(book));
+    options.print("stored the states in " + file + "\n");
   }
   std::vector<Verdict> verdicts = scenes::compare_states(scenes, book, options.hashes);
   scenes::Comparison comparison;

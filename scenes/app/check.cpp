@@ -5,6 +5,7 @@
 
 #include "engine/io/figures.h"
 #include "scenes/app/commands.h"
+#include "scenes/file/error_list.h"
 #include "scenes/make_simulation.h"
 
 namespace sunder::app {
@@ -17,6 +18,7 @@ int list(const ListOptions& options) {
   Figures figures;
   std::size_t index = 0;
   for (const scenes::CatalogEntry& entry : scenes::catalog()) {
+    if (options.quiet && options.json != "-") std::printf("%s\n", entry.name.c_str());
     options.print(entry.name +
                   std::string(entry.name.size() < 14 ? 14 - entry.name.size() : 1, ' ') +
                   entry.description + "\n");
@@ -28,6 +30,21 @@ int list(const ListOptions& options) {
   options.write_json(format_figures(figures));
   return 0;
 }
+
+namespace {
+
+/// Prints the mistakes of a scene, and adds them to its figures.
+void report_errors(const std::vector<std::string>& errors, const std::string& at,
+                   Figures& figures) {
+  figures[at + "/good"] = false;
+  figures[at + "/error"] = errors.front();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    std::fprintf(stderr, "error: %s\n", errors[i].c_str());
+    figures[at + "/errors/" + std::to_string(i)] = errors[i];
+  }
+}
+
+}  // namespace
 
 // Checks all scenes, also after one with an error.
 int check(const CheckOptions& options) {
@@ -49,10 +66,11 @@ int check(const CheckOptions& options) {
       figures[at + "/good"] = true;
       figures[at + "/solids"] = static_cast<std::int64_t>(scene.solids.size());
       figures[at + "/convexes"] = static_cast<std::int64_t>(convexes);
+    } catch (const scenes::InputErrors& errors) {
+      report_errors(errors.all(), at, figures);
+      ++wrong;
     } catch (const InputError& error) {
-      std::fprintf(stderr, "error: %s\n", error.what());
-      figures[at + "/good"] = false;
-      figures[at + "/error"] = std::string(error.what());
+      report_errors({error.what()}, at, figures);
       ++wrong;
     }
   }

@@ -7,7 +7,9 @@
 #include "render/passes/layers.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
+#include "scenes/app/build_info.h"
 #include "scenes/app/commands.h"
+#include "scenes/app/manual.h"
 #include "scenes/app/subcommand.h"
 #include "scenes/solid_break.h"
 
@@ -18,6 +20,7 @@ void add_list(CLI::App& program, Command& chosen) {
   Subcommand<ListOptions> command(program, "list", "The scenes, one line each", list, chosen);
   command.app->add_flag("--keys", command.options->keys,
                         "Every key of a scene file instead, as Markdown");
+  command.app->get_option("--quiet")->description("Print the names alone");
 }
 
 void add_check(CLI::App& program, Command& chosen) {
@@ -324,9 +327,30 @@ void add_hull(CLI::App& program, Command& chosen) {
       ->check(from_to(4, 10000));
 }
 
+void add_doctor(CLI::App& program, Command& chosen) {
+  Subcommand<DoctorOptions>(program, "doctor",
+                            "What the program finds on this machine, and what is missing", doctor,
+                            chosen);
+}
+
+/// Adds a command that the help does not list: the build of the project runs it.
+void add_manual(CLI::App& program, Command& chosen) {
+  CLI::App* app = program.add_subcommand("manual", "Write manual pages and shell completions");
+  app->group("");
+  app->add_option_function<std::string>("DIR",
+                                        [&program, &chosen](const std::string& folder) {
+                                          chosen = [folder, files = manual_files(program)] {
+                                            return write_manual(folder, files);
+                                          };
+                                        })
+      ->required();
+}
+
 Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const char* name,
-                                     const char* help, int (*work)(const GoldenOptions&)) {
+                                     const char* help, int (*work)(const GoldenOptions&),
+                                     const std::string& folder) {
   Subcommand<GoldenOptions> command(golden, name, help, work, chosen);
+  command.options->folder = folder;
   command.app->add_option("--folder", command.options->folder, "Folder of goldens")
       ->capture_default_str();
   command.app->add_option("--gl", command.options->gl, "As in sunder render")
@@ -337,8 +361,9 @@ Subcommand<GoldenOptions> add_golden(CLI::App& golden, Command& chosen, const ch
 void add_golden(CLI::App& program, Command& chosen) {
   CLI::App* golden = program.add_subcommand("golden", "Regression tests of drawing and simulation");
   golden->require_subcommand(1);
-  const auto add = [&](const char* name, const char* help, int (*work)(const GoldenOptions&)) {
-    return add_golden(*golden, chosen, name, help, work);
+  const auto add = [&](const char* name, const char* help, int (*work)(const GoldenOptions&),
+                       const std::string& folder = goldens_folder()) {
+    return add_golden(*golden, chosen, name, help, work, folder);
   };
   for (auto& command :
        {add("test", "Draw the frames, simulate their scenes, and compare both with what is stored",
@@ -353,10 +378,11 @@ void add_golden(CLI::App& program, Command& chosen) {
     command.app->add_option("--out", command.options->out, "Folder of new files")
         ->capture_default_str();
   }
-  const auto accept =
-      add("accept", "Store the current images and states as the expected ones", golden_accept);
+  const auto accept = add("accept", "Store the current images and states as the expected ones",
+                          golden_accept, own_goldens_folder());
   accept.app->add_option("NAME", accept.options->names, "Goldens")->required();
-  auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record);
+  auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record,
+                    own_goldens_folder());
   record.app
       ->add_option_function<std::string>(
           "NAME", [given = record.options](const std::string& name) { given->names = {name}; },
@@ -381,7 +407,7 @@ void add_golden(CLI::App& program, Command& chosen) {
 
 Command parse_command_line(int argc, char** argv) {
   CLI::App program("Simulates and renders destruction.", "sunder");
-  program.set_version_flag("--version", SUNDER_VERSION);
+  program.set_version_flag("--version", version_line());
   program.require_subcommand(1);
   Command chosen;
   add_list(program, chosen);
@@ -394,6 +420,8 @@ Command parse_command_line(int argc, char** argv) {
   add_vacd(program, chosen);
   add_hull(program, chosen);
   add_golden(program, chosen);
+  add_doctor(program, chosen);
+  add_manual(program, chosen);
   check_words(program, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
   try {
     program.parse(argc, argv);

@@ -7,6 +7,16 @@
 #include "engine/io/bytes.h"
 
 namespace sunder::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path program_file() {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored);
+}
+
+}  // namespace
 
 void CommonOptions::apply() const {
   constexpr int kMaxThreadsPerProcessor = 4;
@@ -31,12 +41,32 @@ void CommonOptions::write_json(const std::string& text) const {
   }
 }
 
-std::string goldens_folder() {
+std::string installed_goldens_folder() {
+  return (program_file().parent_path().parent_path() / "share/sunder/golden").string();
+}
+
+std::string own_goldens_folder() {
+#ifdef SUNDER_BUILD_FOLDER
   std::error_code ignored;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const bool is_where_built =
-      std::filesystem::equivalent(program.parent_path(), SUNDER_BUILD_FOLDER, ignored);
-  return is_where_built ? SUNDER_GOLDENS_FOLDER : "tests/golden";
+  if (fs::equivalent(program_file().parent_path(), SUNDER_BUILD_FOLDER, ignored))
+    return SUNDER_GOLDENS_FOLDER;
+#endif
+  return "tests/golden";
+}
+
+std::string goldens_folder() {
+  const std::string own = own_goldens_folder();
+  const std::string installed = installed_goldens_folder();
+  std::error_code ignored;
+  for (fs::directory_iterator file(own, ignored), end; !ignored && file != end; ++file)
+    if (file->path().extension() == ".json") return own;
+  return fs::is_directory(installed, ignored) ? installed : own;
+}
+
+std::string hashes_file() {
+  const std::string own = own_goldens_folder() + "/hashes.txt";
+  std::error_code ignored;
+  return fs::exists(own, ignored) ? own : goldens_folder() + "/hashes.txt";
 }
 
 }  // namespace sunder::app

@@ -29,10 +29,18 @@ struct CommonOptions {
   void write_json(const std::string& text) const;
 };
 
-/// Returns the folder of the goldens and of the stored state hashes: that of the source tree if the
-/// program runs in the folder where it was built, otherwise tests/golden in the working directory.
-/// A program that was installed or copied must not change the tree that it was built from.
+/// Returns the folder of the goldens to compare with: that of the source tree if the program runs
+/// in the folder where it was built; otherwise tests/golden in the working directory if there are
+/// goldens, or else the goldens that are installed with the program.
 std::string goldens_folder();
+/// Returns the folder in which goldens are recorded and accepted: as goldens_folder(), but never
+/// that of the installed goldens, which belong to the package.
+std::string own_goldens_folder();
+/// Returns the folder in which the goldens are when the program is installed.
+std::string installed_goldens_folder();
+/// Returns the file of the stored state hashes to compare with: hashes.txt in own_goldens_folder()
+/// if there is one, or else in goldens_folder().
+std::string hashes_file();
 
 struct ListOptions : CommonOptions {
   bool keys = false;
@@ -52,8 +60,8 @@ struct SimulateOptions : CommonOptions {
   std::string events;  ///< File for a line of JSON for each event; empty: none.
   /// Least closing speed of the hits among the events; infinity: none are.
   double hits_m_s = std::numeric_limits<double>::infinity();
-  std::string trace;           ///< File for spans of all threads; empty: none.
-  bool count_threads = false;  ///< Report what more threads would take.
+  std::string trace;                       ///< File for spans of all threads; empty: none.
+  bool count_threads = false;              ///< Report what more threads would take.
   std::pair<double, std::string> save_at;  ///< Time in s, and file for the state; empty: none.
   std::string resume;  ///< File of a saved state to go on from, in place of a scene; empty: none.
 };
@@ -84,7 +92,7 @@ struct BenchOptions : CommonOptions {
   std::string compare;      ///< File of older timings; empty: none.
   std::string against;      ///< Another program to time in the same turns; empty: none.
   std::string fail_slower;  ///< "10%"; empty: never.
-  std::string hashes = goldens_folder() + "/hashes.txt";
+  std::string hashes = hashes_file();
   bool accept = false;
   std::string junit;  ///< File of JUnit XML to write; empty: none.
   std::string page;   ///< HTML file to write; empty: none.
@@ -103,6 +111,8 @@ struct TradeOptions : CommonOptions {
   bool list = false;
   bool merge = false;
 };
+
+struct DoctorOptions : CommonOptions {};
 
 struct FractureOptions : CommonOptions {
   std::string mesh;  ///< Mesh to break, or a case file with a compound and its break.
@@ -155,6 +165,7 @@ int trade(const TradeOptions& options);
 int fracture_mesh(const FractureOptions& options);
 int vacd(const VacdOptions& options);
 int hull(const HullOptions& options);
+int doctor(const DoctorOptions& options);
 int golden_test(const GoldenOptions& options);
 int golden_report(const GoldenOptions& options);
 int golden_accept(const GoldenOptions& options);

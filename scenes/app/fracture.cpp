@@ -12,6 +12,7 @@
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
 #include "engine/io/figures.h"
+#include "engine/io/file_ending.h"
 #include "engine/io/statistics.h"
 #include "fracture/check/audit.h"
 #include "fracture/check/case_file.h"
@@ -144,7 +145,7 @@ struct Attempt {
 
 fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOptions& solid_of,
                             Attempt& attempt, WorkProgress& progress) {
-  if (!options.mesh.ends_with(".case")) {
+  if (!has_ending(options.mesh, ".case")) {
     if (options.pattern.empty()) {
       throw InputError("--pattern is missing: " + std::string(scenes::kPatternHelp));
     }

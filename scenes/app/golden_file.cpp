@@ -106,7 +106,11 @@ fs::path Golden::frame_file() const {
 }
 
 std::string accept_command(const fs::path& folder, const std::string& names) {
-  const bool is_usual = folder == GoldenOptions().folder;
+  if (folder == installed_goldens_folder()) {
+    return "mkdir -p tests && cp -r " + quoted(folder.string()) +
+           " tests/golden && sunder golden accept " + names;
+  }
+  const bool is_usual = folder == own_goldens_folder();
   return "sunder golden accept " + names + (is_usual ? "" : " --folder " + quoted(folder.string()));
 }
 
@@ -120,7 +124,7 @@ std::string Golden::command() const {
   if (view_mode != Golden().view_mode) text += " --view-mode " + view_mode;
   if (hud) text += " --hud";
   if (!has_frame) text += " --no-frame";
-  if (folder != GoldenOptions().folder) text += " --folder " + quoted(folder.string());
+  if (folder != own_goldens_folder()) text += " --folder " + quoted(folder.string());
   return text + " && " + accept_command();
 }
 

@@ -1,21 +1,14 @@
 // The program `sunder`. Read first: commands.h, then the file of a command.
+// processor_check.cpp runs before main().
 #include <malloc.h>
 
 #include <cstdio>
 
 #include "engine/base/check.h"
 #include "scenes/app/command_line.h"
+#include "scenes/file/error_list.h"
 
 int main(int argc, char** argv) {
-#ifdef __AVX2__
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    std::fputs(
-        "failed: this program is built for processors with AVX2 (x86-64-v3); build it with "
-        "-DSUNDER_ARCH=x86-64-v2\n",
-        stderr);
-    return 1;
-  }
-#endif
   // Keep freed memory for the next frame: for a large solid, returning it and getting zeroed pages
   // takes a third of the time of its stress computation.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -24,6 +17,10 @@ int main(int argc, char** argv) {
     const int code = sunder::app::parse_command_line(argc, argv)();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     throw sunder::FileError("standard output cannot be written");
+  } catch (const sunder::scenes::InputErrors& errors) {
+    for (const std::string& error : errors.all())
+      std::fprintf(stderr, "error: %s\n", error.c_str());
+    return 2;
   } catch (const sunder::InputError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/io/file_ending.h"
 #include "engine/io/mesh/glb_writer.h"
 #include "engine/io/mesh/obj_writer.h"
 #include "render/image/normal_map.h"
@@ -73,7 +74,7 @@ std::string doubled_summary(const std::optional<fracture::DoubleCountedVolume>& 
 }
 
 void check_output(const std::string& output) {
-  if (output.empty() || output.ends_with(".glb") || output.ends_with(".png")) return;
+  if (output.empty() || has_ending(output, ".glb") || has_ending(output, ".png")) return;
   if (is_folder(output)) return;
   throw InputError("-o " + output + ": expected X.glb, X.png, or a folder for .obj files (DIR/)");
 }
@@ -82,7 +83,7 @@ std::size_t write_solids(const std::string& output, const std::vector<Compound>&
                          const std::vector<Material>& materials,
                          std::vector<Appearance> appearances, std::optional<double> explode,
                          Walls walls) {
-  if (output.ends_with(".png")) {
+  if (has_ending(output, ".png")) {
     constexpr double kDefaultExplode = 0.3;  // makes cracks visible
     draw_solids(output, solids, materials, std::move(appearances),
                 explode.value_or(kDefaultExplode));

@@ -5,11 +5,13 @@
 #include <charconv>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
 #include "engine/io/figures.h"
+#include "engine/io/file_ending.h"
 #include "engine/io/frame_file.h"
 #include "engine/io/frames_ahead.h"
 #include "engine/io/recording/recording.h"
@@ -21,6 +23,7 @@
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
 #include "scenes/app/run.h"
+#include "scenes/app/run_notes.h"
 #include "scenes/file/view.h"
 
 namespace sunder::app {
@@ -111,15 +114,20 @@ class StateRecorder final : public FrameSink {
   void take(const FramePtr& frame) override {
     states_.take(frame);
     limits_ += frame->report.limits;
+    if (notes_) notes_->take(frame);
     limits_hit_ += frame->report.limits_hit;
   }
+  /// Also takes the notes of a run of the scene.
+  void note(const Scene& scene) { notes_.emplace(scene); }
   std::string hash() const { return states_.hex(); }
+  std::string notes() const { return notes_ ? notes_->text() : ""; }
   std::string warning() const { return limits_warning(limits_, limits_hit_); }
 
  private:
   StateHash states_;
   LimitsHit limits_;
   std::uint32_t limits_hit_ = 0;
+  std::optional<RunNotes> notes_;
 };
 
 /// Counts the frames that it passes on to another sink, which is finished only if there are any.
@@ -141,7 +149,7 @@ class CountingSink final : public FrameSink {
 };
 
 std::unique_ptr<render::Camera> camera_of(const std::string& spec) {
-  if (spec.ends_with(".toml")) return render::make_camera(scenes::load_view_keys(spec));
+  if (has_ending(spec, ".toml")) return render::make_camera(scenes::load_view_keys(spec));
   return render::make_camera(spec);
 }
 
@@ -177,11 +185,12 @@ RenderInput open_frame(const RenderOptions& options) {
 }
 
 /// Opens the scene, recording or stored frame. `from_start`: a recording is read from frame 0 on.
-RenderInput open(const RenderOptions& options, const Span& span, bool from_start) {
+RenderInput open(const RenderOptions& options, const Span& span, bool from_start,
+                 StateRecorder& record) {
   RenderInput input;
-  input.is_recorded = options.scene.ends_with(".frame") || options.scene.ends_with(".take");
+  input.is_recorded = has_ending(options.scene, ".frame") || has_ending(options.scene, ".take");
   if (input.is_recorded) check_recorded(options);
-  if (options.scene.ends_with(".frame")) return open_frame(options);
+  if (has_ending(options.scene, ".frame")) return open_frame(options);
   int last = 0;
   if (input.is_recorded) {
     auto take = std::make_unique<RecordingReader>(options.scene);
@@ -191,6 +200,7 @@ RenderInput open(const RenderOptions& options, const Span& span, bool from_start
   } else {
     Scene scene = scenes::load_scene(options.scene, options.load);
     last = last_frame(scene, -1);
+    record.note(scene);
     const render::ViewMode mode(options.render.view_mode);
     input.source = make_simulation(std::move(scene), {.inspect = mode.needs_inspection()});
   }
@@ -229,7 +239,8 @@ int render_scene(const RenderOptions& options) {
              render_options);
 
   const auto camera = camera_of(options.view);
-  const RenderInput input = open(options, span, camera->depends_on_history());
+  StateRecorder record;
+  const RenderInput input = open(options, span, camera->depends_on_history(), record);
   const render::PlaybackRate pace{render_options.frames_per_s, options.speed};
   const std::uint64_t first = pace.first_picture(static_cast<std::uint64_t>(input.drawn.first));
   const std::uint64_t last = pace.last_picture(static_cast<std::uint64_t>(input.drawn.last));
@@ -242,7 +253,6 @@ int render_scene(const RenderOptions& options) {
   const auto pictures = make_sink(options, renderer, first, last);
   CountingSink counter(*pictures);
   FramesFrom from(counter, first);
-  StateRecorder record;
   FramesUntil frames(*input.source, input.drawn.last - input.skipped);
   // Drawing and simulation alternate if there is only one thread.
   std::optional<FramesAhead> ahead;
@@ -262,7 +272,7 @@ int render_scene(const RenderOptions& options) {
     options.print("stopped before the first image; nothing is written\n");
   } else {
     options.print((stopped == 0 ? "wrote " : "stopped; wrote the images drawn so far: ") +
-                  options.output + "\n");
+                  options.output + "\n" + record.notes());
   }
   options.write_json(format_figures({{"/output", options.output},
                                      {"/gl", renderer.description()},

@@ -14,6 +14,7 @@
 #include "engine/model/checks/item_check.h"
 #include "engine/world/simulation.h"
 #include "scenes/app/run.h"
+#include "scenes/app/run_notes.h"
 
 namespace sunder::app {
 namespace {
@@ -77,9 +78,10 @@ int simulate(const SimulateOptions& options) {
   Progress progress("simulate " + scene.name, last, options.quiet);
   StateHash hash;
   simulation.world().report_hits(options.hits_m_s);
+  RunNotes notes(scene, simulation.world().time_s());
   SavingSource saving(simulation, options);
   FramesUntil frames(saving, last - first);
-  std::vector<FrameSink*> sinks = {&statistics, &hash, &progress};
+  std::vector<FrameSink*> sinks = {&statistics, &hash, &notes, &progress};
   std::optional<RecordingReader> recording;
   std::optional<RecordingVerifier> verifier;
   if (!options.verify.empty()) {
@@ -100,7 +102,7 @@ int simulate(const SimulateOptions& options) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   if (saving.saved() && !options.save_at.second.empty())
     options.print("wrote " + options.save_at.second + "\n");
-  options.print(statistics.table() + "state hash " + hash.hex() + "\n");
+  options.print(statistics.table() + "state hash " + hash.hex() + "\n" + notes.text());
   options.write_json(statistics.json(hash.hex(), /*per_frame=*/true));
   if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
   if (events)

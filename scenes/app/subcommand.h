@@ -1,5 +1,5 @@
 // A command of the program with its options, their allowed values, and the files they name. Only
-// this file, subcommand.cpp and command_line.cpp use CLI11.
+// this file, subcommand.cpp, manual.cpp and command_line.cpp use CLI11.
 #pragma once
 
 #include <charconv>

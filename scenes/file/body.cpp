@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "scenes/file/error_list.h"
 #include "scenes/file/make_compound.h"
 #include "scenes/file/mesh_solid.h"
 #include "scenes/file/moved_part.h"
@@ -139,13 +140,18 @@ Body read_body(const Value& table, std::span<const Material> materials,
                const std::filesystem::path& folder, std::vector<Appearance>& appearances,
                std::vector<std::string>& warnings) {
   const std::string_view name = body_keys().table;
-  check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});
   MeshTable mesh;
-  read_keys(table, name, mesh_keys().keys, materials, &mesh);
-  read_named_materials(table, materials, mesh);
   BodyTable given;
-  read_keys(table, name, body_keys().keys, {}, &given);
-  const std::vector<Copy> copies = read_copies(table, name);
+  std::vector<Copy> copies;
+  ErrorList errors;
+  errors.collect([&] {
+    check_known(table, name, {mesh_keys().keys, body_keys().keys, placement_keys().keys});
+  });
+  errors.collect([&] { read_keys(table, name, mesh_keys().keys, materials, &mesh); });
+  errors.collect([&] { read_named_materials(table, materials, mesh); });
+  errors.collect([&] { read_keys(table, name, body_keys().keys, {}, &given); });
+  errors.collect([&] { copies = read_copies(table, name); });
+  errors.throw_any();
   Body body{given.name, default_name(mesh.mesh), {}};
   try {
     Compound compound = read_compound(mesh, folder, appearances, warnings);

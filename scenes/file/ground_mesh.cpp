@@ -10,6 +10,7 @@
 #include "engine/base/check.h"
 #include "engine/geometry/repair/clean.h"
 #include "engine/geometry/triangulate.h"
+#include "scenes/file/error_list.h"
 #include "scenes/file/mesh_solid.h"
 #include "scenes/file/placement.h"
 #include "scenes/sculpture/hills.h"
@@ -189,10 +190,13 @@ const Keys<GroundMeshTable>& ground_mesh_keys() {
 
 void read_ground_mesh(const Value& table, const std::filesystem::path& folder, Scene& scene) {
   const Keys<GroundMeshTable>& keys = ground_mesh_keys();
-  check_known(table, keys.table, {keys.keys, placement_keys().keys});
   GroundMeshTable given;
-  read_keys(table, keys.table, keys.keys, {}, &given);
-  const std::vector<Copy> copies = read_copies(table, keys.table);
+  std::vector<Copy> copies;
+  ErrorList errors;
+  errors.collect([&] { check_known(table, keys.table, {keys.keys, placement_keys().keys}); });
+  errors.collect([&] { read_keys(table, keys.table, keys.keys, {}, &given); });
+  errors.collect([&] { copies = read_copies(table, keys.table); });
+  errors.throw_any();
   GroundMesh model = make_mesh(given, table, folder);
   drop_degenerate_triangles(model);
   if (model.triangles.empty())

@@ -8,6 +8,7 @@
 
 #include "engine/base/check.h"
 #include "engine/geometry/approximate_hull.h"
+#include "scenes/file/error_list.h"
 
 namespace sunder::scenes {
 namespace {
@@ -251,13 +252,17 @@ void check_known(const Value& table, std::string_view name,
   }
   std::vector<std::string_view> candidates = names;
   candidates.insert(candidates.end(), degrees.begin(), degrees.end());
+  ErrorList errors;
   for (const Entry& entry : as_table(table, name)) {
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
     if (std::find(degrees.begin(), degrees.end(), entry.key) != degrees.end()) continue;
-    throw InputError(entry.value.where + ": unknown key '" + entry.key + "' in " +
-                     std::string(name) + did_you_mean(entry.key, candidates) +
-                     "; allowed: " + join(names));
+    errors.collect([&] {
+      throw InputError(entry.value.where + ": unknown key '" + entry.key + "' in " +
+                       std::string(name) + did_you_mean(entry.key, candidates) +
+                       "; allowed: " + join(names));
+    });
   }
+  errors.throw_any();
 }
 
 /// Throws InputError for a missing key, at the place of an unknown key with a similar name, if any.
@@ -276,25 +281,33 @@ void check_known(const Value& table, std::string_view name,
   throw InputError(table.where + missing + ": " + allowed(key));
 }
 
+/// Reads one key of `keys`, if the table has it. Throws InputError.
+void read_key(const Value& table, std::string_view name, const Key& key, std::span<const Key> keys,
+              std::span<const Material> materials, void* object) {
+  const Table& entries = as_table(table, name);
+  const std::string degrees_key = degrees_name(key);
+  const Value* value = find(entries, key.name);
+  const Value* degrees = degrees_key.empty() ? nullptr : find(entries, degrees_key);
+  if (value && degrees) {
+    throw InputError(degrees->where + ": " + degrees_key + " and " + std::string(key.name) +
+                     " in " + std::string(name) + " exclude each other; remove one");
+  }
+  if (!value && !degrees && key.required) refuse_missing(table, name, key, keys);
+  if (value) store({*value, key, name, 1}, object);
+  if (degrees) store({*degrees, in_degrees(key, degrees_key), name, kDegree}, object);
+  if (key.kind == Key::Kind::kMaterial) {
+    MaterialRef& material = *static_cast<MaterialRef*>(key.field(object));
+    material.index = find_material(material.name, value ? value->where : table.where, materials);
+  }
+}
+
 void read_keys(const Value& table, std::string_view name, std::span<const Key> keys,
                std::span<const Material> materials, void* object) {
-  const Table& entries = as_table(table, name);
-  for (const Key& key : keys) {
-    const std::string degrees_key = degrees_name(key);
-    const Value* value = find(entries, key.name);
-    const Value* degrees = degrees_key.empty() ? nullptr : find(entries, degrees_key);
-    if (value && degrees) {
-      throw InputError(degrees->where + ": " + degrees_key + " and " + std::string(key.name) +
-                       " in " + std::string(name) + " exclude each other; remove one");
-    }
-    if (!value && !degrees && key.required) refuse_missing(table, name, key, keys);
-    if (value) store({*value, key, name, 1}, object);
-    if (degrees) store({*degrees, in_degrees(key, degrees_key), name, kDegree}, object);
-    if (key.kind == Key::Kind::kMaterial) {
-      MaterialRef& material = *static_cast<MaterialRef*>(key.field(object));
-      material.index = find_material(material.name, value ? value->where : table.where, materials);
-    }
-  }
+  as_table(table, name);
+  ErrorList errors;
+  for (const Key& key : keys)
+    errors.collect([&] { read_key(table, name, key, keys, materials, object); });
+  errors.throw_any();
 }
 
 const Table& as_table(const Value& value, std::string_view name) {

@@ -17,6 +17,7 @@
 #include "engine/base/check.h"
 #include "engine/base/types.h"
 #include "engine/model/material.h"
+#include "scenes/file/error_list.h"
 #include "scenes/file/value.h"
 
 namespace sunder::scenes {
@@ -196,11 +197,11 @@ struct Keys {
   std::vector<Key> keys;
 };
 
-/// Throws InputError for a key of the table that is in none of `allowed`, naming the most similar.
+/// Throws InputErrors for keys of the table that are in none of `allowed`, naming the most similar.
 void check_known(const Value& table, std::string_view name,
                  std::initializer_list<std::span<const Key>> allowed);
 /// Reads the keys that the table has into `object`, and finds the indices of its materials, also of
-/// defaults. Throws InputError.
+/// defaults. Throws InputErrors that names each wrong key.
 void read_keys(const Value& table, std::string_view name, std::span<const Key> keys,
                std::span<const Material> materials, void* object);
 /// Returns the entries of `value`. Throws InputError if it is not a table.
@@ -208,12 +209,14 @@ const Table& as_table(const Value& value, std::string_view name);
 /// Returns the elements of the array of tables under `key`; none if absent. Throws InputError.
 std::vector<const Value*> tables(const Value& parent, std::string_view key);
 
-/// Reads the keys that the table has into `object`. Throws InputError that names file, line, key
-/// and the allowed values.
+/// Reads the keys that the table has into `object`. Throws InputErrors that names file, line, key
+/// and the allowed values of each unknown or wrong key.
 template <class T>
 void read(const Keys<T>& keys, const Value& table, std::span<const Material> materials, T& object) {
-  check_known(table, keys.table, {keys.keys});
-  read_keys(table, keys.table, keys.keys, materials, &object);
+  ErrorList errors;
+  errors.collect([&] { check_known(table, keys.table, {keys.keys}); });
+  errors.collect([&] { read_keys(table, keys.table, keys.keys, materials, &object); });
+  errors.throw_any();
 }
 
 /// Returns "; did you mean 'x'?", or nothing if no candidate is similar to the word.

@@ -6,6 +6,7 @@
 #include "engine/base/check.h"
 #include "engine/base/rotation.h"
 #include "scenes/file/chain.h"
+#include "scenes/file/error_list.h"
 #include "scenes/file/names.h"
 #include "scenes/file/schema.h"
 
@@ -179,16 +180,22 @@ void add_shot(const Value& table, Scene& scene) {
 
 }  // namespace
 
-void read_script(const Value& table, Scene& scene) {
+void read_script(const Value& table, Scene& scene, ErrorList& errors) {
   Script script;
-  read(schema().script, table, {}, script);
+  errors.collect([&] { read(schema().script, table, {}, script); });
   // A disabled script is read too, so that its errors are found.
-  for (const Value* shot : tables(table, "shot")) add_shot(*shot, scene);
-  for (const Value* ball : tables(table, "wrecking_ball")) add_wrecking_ball(*ball, scene);
-  for (const Value* blast : tables(table, "blast")) add_blast(*blast, scene);
-  for (const Value* removal : tables(table, "remove")) add_removal(*removal, scene);
-  for (const Value* drive : tables(table, "drive")) add_drive(*drive, scene);
-  for (const Value* move : tables(table, "move")) add_move(*move, scene);
+  using Add = void (*)(const Value&, Scene&);
+  for (const auto& [key, add] : {std::pair<const char*, Add>{"shot", add_shot},
+                                 {"wrecking_ball", add_wrecking_ball},
+                                 {"blast", add_blast},
+                                 {"remove", add_removal},
+                                 {"drive", add_drive},
+                                 {"move", add_move}}) {
+    errors.collect([&, name = key, read_act = add] {
+      for (const Value* act : tables(table, name))
+        errors.collect_keys([&] { read_act(*act, scene); });
+    });
+  }
   if (!script.enabled) {
     // Moved bodies stay kinematic, at rest.
     for (Move& move : scene.moves) move.path = {}, move.release_s = kNever;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "engine/model/scene.h"
+#include "scenes/file/error_list.h"
 #include "scenes/file/value.h"
 
 namespace sunder::scenes {
 
-/// Reads [script] into a scene that has its materials, solids, balls and joints. Throws InputError.
-void read_script(const Value& table, Scene& scene);
+/// Reads [script] into a scene that has its materials, solids, balls and joints. Adds the mistakes
+/// of each of its tables to `errors`.
+void read_script(const Value& table, Scene& scene, ErrorList& errors);
 
 }  // namespace sunder::scenes

@@ -122,7 +122,8 @@ const Value* find(const Table& table, std::string_view key) {
 }
 
 const Value* find(const Value& table, std::string_view key) {
-  return find(std::get<Table>(table.data), key);
+  const Table* entries = std::get_if<Table>(&table.data);
+  return entries ? find(*entries, key) : nullptr;
 }
 
 std::string describe(const Value& value) {

@@ -25,7 +25,7 @@ struct Entry {
   Value value;
 };
 
-/// Returns the value of a key; null if the table does not have the key.
+/// Returns the value of a key; null if the table does not have the key, or the value is no table.
 const Value* find(const Table& table, std::string_view key);
 const Value* find(const Value& table, std::string_view key);
 /// Returns "the string \"x\"", "the number 3", "an array of 2" and so on, for error messages.

@@ -6,6 +6,7 @@
 #include "engine/base/check.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/hull.h"
+#include "scenes/file/error_list.h"
 #include "scenes/structures/structure.h"
 
 namespace sunder::scenes {
@@ -225,9 +226,12 @@ std::vector<Piece> read_structure(const Value& table, std::string_view name,
   std::vector<Key> known;
   for (const std::span<const Key> keys : more) known.insert(known.end(), keys.begin(), keys.end());
   known.insert(known.end(), type.keys.begin(), type.keys.end());
-  check_known(table, full_name, {known});
   const std::shared_ptr<void> parameters = type.parameters();
-  read_keys(table, full_name, type.keys, context.materials, parameters.get());
+  ErrorList errors;
+  errors.collect([&] { check_known(table, full_name, {known}); });
+  errors.collect(
+      [&] { read_keys(table, full_name, type.keys, context.materials, parameters.get()); });
+  errors.throw_any();
   return type.build(parameters.get(), table, context);
 }
 
