@@ -66,6 +66,17 @@ struct RenderOptions : CommonOptions {
   render::RenderOptions render;
 };
 
+struct ExportOptions : CommonOptions {
+  std::string scene;  ///< File or name of a scene, or file of a recording.
+  scenes::LoadOptions load;
+  bool preset_given = false;
+  std::string output;
+  int frames = -1;             ///< Index of the last frame; -1: to the end.
+  double tolerance_m = 1e-3;   ///< Largest error of an interpolated position.
+  double tolerance_deg = 0.1;  ///< Largest error of an interpolated rotation.
+  int frames_per_s = 60;
+};
+
 struct BenchOptions : CommonOptions {
   BenchOptions() { threads = 1; }  ///< Threads that wait for each other would count as time.
   std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
@@ -144,6 +155,7 @@ int list(const ListOptions& options);
 int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);
 int render_scene(const RenderOptions& options);
+int export_scene(const ExportOptions& options);
 int bench(const BenchOptions& options);
 int trade(const TradeOptions& options);
 int fracture_mesh(const FractureOptions& options);

@@ -2,12 +2,10 @@
 
 #include <unistd.h>
 
-#include <charconv>
 #include <string>
-#include <string_view>
-#include <type_traits>
 
 #include "engine/io/bytes.h"
+#include "engine/io/text_writer.h"
 
 namespace sunder {
 namespace {
@@ -15,30 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMaterials = "materials.mtl";
-
-/// A text buffer; numbers are written in the shortest form that is exact.
-class Text {
- public:
-  Text& operator<<(std::string_view words) {
-    for (const char c : words) out_.put(c);
-    return *this;
-  }
-  template <class Number>
-  requires std::is_arithmetic_v<Number> Text& operator<<(Number number) {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
-    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
-  }
-  template <class Derived>
-  Text& operator<<(const Eigen::MatrixBase<Derived>& vector) {
-    for (Eigen::Index i = 0; i < vector.size(); ++i) *this << (i > 0 ? " " : "") << vector(i);
-    return *this;
-  }
-  void write(const fs::path& file) const { write_file(file, out_.bytes); }
-
- private:
-  ByteWriter out_;
-};
 
 /// Returns a material name without blanks, which OBJ and MTL do not allow.
 std::string as_word(std::string name) {
@@ -49,14 +23,14 @@ std::string as_word(std::string name) {
 }
 
 void write_materials(const fs::path& file, const Model& model) {
-  Text out;
+  TextWriter out;
   for (const Model::Material& material : model.materials) {
     out << "newmtl " << as_word(material.name) << "\nKd " << material.look.color << "\n";
   }
-  out.write(file);
+  write_file(file, out.text);
 }
 
-void write_triangles(Text& out, const std::string& material,
+void write_triangles(TextWriter& out, const std::string& material,
                      const std::vector<std::uint32_t>& indices, const ShellTriangles& triangles,
                      std::size_t first_point, std::size_t first_vertex) {
   out << "usemtl " << as_word(material) << "\n";
@@ -69,7 +43,7 @@ void write_triangles(Text& out, const std::string& material,
 }
 
 void write_part(const fs::path& file, const Model::Part& part, const Model& model) {
-  Text out;
+  TextWriter out;
   out << "mtllib " << kMaterials << "\no " << part.name << "\n";
   std::size_t first_point = 1, first_vertex = 1;
   for (const Model::Shell& shell : part.shells) {
@@ -87,7 +61,7 @@ void write_part(const fs::path& file, const Model::Part& part, const Model& mode
     first_point += shell.mesh->vertices.size();
     first_vertex += triangles.vertices.size();
   }
-  out.write(file);
+  write_file(file, out.text);
 }
 
 /// Throws InputError if a folder has files that were not written by this module.
