@@ -69,6 +69,8 @@ void check_output(const ExportOptions& options) {
   if (!is_glb(options) && (options.tolerance_m || options.tolerance_deg)) {
     throw InputError(name + ": mesh files have every frame; remove --tolerance and --angle");
   }
+  if (!is_glb(options) && options.particles)
+    throw InputError(name + ": mesh files have no debris; remove --particles");
   if (60 % options.frames_per_s != 0) {
     throw InputError("--fps " + std::to_string(options.frames_per_s) +
                      ": expected a divisor of 60, such as 30, 20 or 15");
@@ -104,10 +106,10 @@ class GltfExporter final : public Exporter {
   Figures figures() const override {
     const GltfSceneFigures& all = writer_.figures();
     const auto number = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
-    return {{"/frames", number(all.frames)},   {"/bodies", number(all.bodies)},
-            {"/meshes", number(all.meshes)},   {"/breaks", number(all.breaks)},
-            {"/samples", number(all.samples)}, {"/keys", number(all.keys)},
-            {"/bytes", number(all.bytes)}};
+    return {{"/frames", number(all.frames)}, {"/bodies", number(all.bodies)},
+            {"/meshes", number(all.meshes)}, {"/breaks", number(all.breaks)},
+            {"/chips", number(all.chips)},   {"/samples", number(all.samples)},
+            {"/keys", number(all.keys)},     {"/bytes", number(all.bytes)}};
   }
 
  private:
@@ -117,6 +119,7 @@ class GltfExporter final : public Exporter {
     made.tolerance_m = options.tolerance_m.value_or(made.tolerance_m);
     made.tolerance_deg = options.tolerance_deg.value_or(made.tolerance_deg);
     made.frames_per_s = options.frames_per_s;
+    made.particles = options.particles;
     return made;
   }
   GltfSceneWriter writer_;
