@@ -145,6 +145,24 @@ class SequenceExporter final : public Exporter {
   MeshSequenceWriter writer_;
 };
 
+/// Counts how often the frames reached limits.
+class LimitsCounter final : public FrameSink {
+ public:
+  void take(const FramePtr& frame) override {
+    limits_ += frame->report.limits;
+    hit_ += frame->report.limits_hit;
+  }
+  /// Prints a warning if any limit was reached.
+  void finish() override {
+    if (const std::string warning = limits_warning(limits_, hit_); !warning.empty())
+      std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  }
+
+ private:
+  LimitsHit limits_;
+  std::uint32_t hit_ = 0;
+};
+
 std::unique_ptr<Exporter> make_exporter(const ExportOptions& options, const std::string& name) {
   if (is_glb(options)) return std::make_unique<GltfExporter>(options, name);
   return std::make_unique<SequenceExporter>(options);
@@ -162,7 +180,9 @@ int export_scene(const ExportOptions& options) {
   FramesUntil frames(*input.source, input.last);
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
-  FrameSink* const sinks[] = {exporter.get(), &progress};
+  LimitsCounter limits;
+  std::vector<FrameSink*> sinks = {exporter.get(), &progress};
+  if (!input.recording) sinks.push_back(&limits);  // recordings do not have the counts
   const int stopped = pump_until_stopped(ahead ? static_cast<FrameSource&>(*ahead) : frames, sinks);
   ahead.reset();
   if (exporter->frames() == 0) {

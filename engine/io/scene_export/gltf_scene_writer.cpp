@@ -168,7 +168,8 @@ GltfSceneWriter::Scene::Scene(const std::filesystem::path& path, const GltfScene
 
 void GltfSceneWriter::Scene::take(const FramePtr& frame) {
   side_data_.add_breaks(*frame);
-  if (frame_++ % static_cast<std::uint64_t>(60 / options_.frames_per_s) != 0) return;
+  if (frame_++ % static_cast<std::uint64_t>(60 / options_.frames_per_s) != 0)
+    return tracks_.skip(*frame);
   if (!first_) {
     auto first = std::make_shared<Frame>();
     first->view = frame->view;
