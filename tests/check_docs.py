@@ -7,6 +7,7 @@ Usage: check_docs.py ROOT PROGRAM. Takes about half a minute. Read first: main()
 Commands of the code blocks of README.md, docs/*.md and bench/README.md are run in a new folder
 (make_folder()). Long ones are shortened, as shorten() has it:
   simulate         runs 3 frames;
+  export           writes 3 frames of a scene;
   render           draws 2 frames, or a sheet of 2, of 64x48 pixels unless the command has a size;
   bench            runs 2 frames of each scene once, without warm-up, and accepts states of one scene;
   trade            lists its runs (--list);
@@ -27,8 +28,8 @@ import tempfile
 from pathlib import Path
 
 MAX_README_LINES = 120
-COMMANDS = ("list", "check", "simulate", "render", "bench", "trade", "fracture", "vacd", "hull",
-            "golden", "doctor")
+COMMANDS = ("list", "check", "simulate", "render", "export", "bench", "trade", "fracture", "vacd",
+            "hull", "golden", "doctor")
 GOLDEN = "stack"  # the quickest to test
 
 # Sections of docs/cli.md, beside its own, that have options of a command.
@@ -45,6 +46,8 @@ SYNTAX = {
     "sunder render SCENE|X.take|X.frame -o X.mp4|X.webm|X.png|DIR/":
         ["sunder render stack -o x.png", "sunder render house.take -o frames/",
          "sunder render tests/golden/stack.frame -o x.webm"],
+    "sunder export SCENE|X.take -o X.glb|DIR/":
+        ["sunder export stack -o x.glb", "sunder export house.take -o meshes/"],
     "sunder bench [SCENE...]": ["sunder bench", "sunder bench stack"],
     "sunder trade SCENE... -o DIR": ["sunder trade stack glass -o out/trade"],
     "sunder fracture MESH --pattern SPEC [--at X,Y,Z] [--radius R]":
@@ -73,6 +76,7 @@ JSON_COMMANDS = (
     "trade stack --frames 2 --seeds 1 -o out/trade",
     "fracture tetrahedron.obj --pattern voronoi:8", "vacd tetrahedron.obj --nodes 2",
     "hull box:1,1,1 --vertices 8", "render stack -o x.png --frames 0 --size 64x48",
+    "export stack -o x.glb --frames 3",
     "golden test " + GOLDEN, "doctor")
 
 # Paths in the JSON whose keys are names of stages, parts of work, features or keys of a scene.
@@ -250,6 +254,8 @@ def shorten(arguments):
     """Returns a command that does the same in less time, see the head of this file."""
     command = arguments[0]
     if command == "simulate":
+        return add(arguments, "--frames", "3")
+    if command == "export" and not arguments[1].endswith(".take"):
         return add(arguments, "--frames", "3")
     if command == "render":
         if "--frames" in arguments:

@@ -16,7 +16,7 @@ LAYERS = {
     "engine": (("base",), ("geometry",), ("geometry/repair", "geometry/walls"), ("model",),
                ("model/checks", "world/tuning.h"), ("world/actors",),
                ("world/break", "world/load", "world/act", "world/particles"), ("world",), ("io",),
-               ("io/mesh", "io/recording")),
+               ("io/mesh", "io/recording"), ("io/scene_export",)),
     "fracture": (("tuning.h",), ("pattern",), ("adjacency",), ("cut",), ("stress", "vacd", "check"), ("",)),
     "solver": (("base",), ("impact", "rigid/tuning.h"), ("rigid/body",), ("rigid/collide",),
                ("rigid/joint",), ("rigid/contact/kernels",), ("rigid/contact",),

@@ -80,6 +80,19 @@ struct RenderOptions : CommonOptions {
   render::RenderOptions render;
 };
 
+struct ExportOptions : CommonOptions {
+  std::string scene;  ///< File or name of a scene, or file of a recording.
+  scenes::LoadOptions load;
+  bool preset_given = false;
+  std::string output;
+  int frames = -1;                      ///< Index of the last frame; -1: to the end.
+  std::optional<double> tolerance_m;    ///< Largest error of an interpolated position.
+  std::optional<double> tolerance_deg;  ///< Largest error of an interpolated rotation.
+  std::string format;                   ///< "obj" or "ply" for a folder; empty: obj.
+  bool particles = false;               ///< Write debris.
+  int frames_per_s = 60;
+};
+
 struct BenchOptions : CommonOptions {
   BenchOptions() { threads = 1; }  ///< Threads that wait for each other would count as time.
   std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
@@ -160,6 +173,7 @@ int list(const ListOptions& options);
 int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);
 int render_scene(const RenderOptions& options);
+int export_scene(const ExportOptions& options);
 int bench(const BenchOptions& options);
 int trade(const TradeOptions& options);
 int fracture_mesh(const FractureOptions& options);

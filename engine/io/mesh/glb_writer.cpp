@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/bytes.h"
+#include "engine/io/mesh/gltf_material_writer.h"
 
 namespace sunder {
 namespace {
@@ -43,6 +44,7 @@ class GlbWriter {
     }
     document_["scenes"] = {{{"nodes", nodes}}};
     add_views();
+    materials_.add_images(document_, kViews);
   }
 
   ByteWriter file() const {
@@ -50,7 +52,8 @@ class GlbWriter {
     text.append((4 - text.size() % 4) % 4, ' ');
     std::size_t binary_size = 0;
     for (const ByteWriter& view : views_) binary_size += view.bytes.size();
-    for (const EncodedImage& picture : pictures_) binary_size += aligned(picture->size());
+    for (const EncodedImage& picture : materials_.pictures())
+      binary_size += aligned(picture->size());
     ByteWriter out;
     for (const std::size_t value :
          {std::size_t{kMagic}, std::size_t{2}, 28 + text.size() + binary_size, text.size(),
@@ -63,7 +66,7 @@ class GlbWriter {
     for (const ByteWriter& view : views_) {
       out.bytes.insert(out.bytes.end(), view.bytes.begin(), view.bytes.end());
     }
-    for (const EncodedImage& picture : pictures_) {
+    for (const EncodedImage& picture : materials_.pictures()) {
       out.bytes.insert(out.bytes.end(), picture->begin(), picture->end());
       out.bytes.resize(out.bytes.size() + aligned(picture->size()) - picture->size());
     }
@@ -72,36 +75,8 @@ class GlbWriter {
 
  private:
   void add_material(const Model::Material& material) {
-    const Appearance& look = material.look;
-    const Vec3f& c = look.color;
-    json base = {{"baseColorFactor", {c.x(), c.y(), c.z(), 1.0}},
-                 {"metallicFactor", look.gloss ? double{look.gloss->metallic} : 0.0},
-                 {"roughnessFactor", look.gloss ? double{look.gloss->roughness} : 0.9}};
-    if (look.picture) base["baseColorTexture"] = use(look.picture);
-    if (look.gloss && look.gloss->picture) {
-      base["metallicRoughnessTexture"] = use(look.gloss->picture);
-    }
-    json described = {{"name", material.name}, {"pbrMetallicRoughness", std::move(base)}};
-    if (look.relief) {
-      described["normalTexture"] = use(look.relief);
-      described["normalTexture"]["scale"] = look.normal_scale;
-    }
-    document_["materials"].push_back(std::move(described));
-    v_from_bottom_.push_back(look.v_from_bottom);
-  }
-
-  /// Returns a reference to the texture of an image; each image is written once.
-  json use(const EncodedImage& picture) {
-    const auto known = std::find(pictures_.begin(), pictures_.end(), picture);
-    const auto number = static_cast<std::size_t>(known - pictures_.begin());
-    if (known == pictures_.end()) {
-      const bool is_png = !picture->empty() && picture->front() == std::byte{0x89};
-      pictures_.push_back(picture);
-      document_["textures"].push_back({{"source", number}});
-      document_["images"].push_back(
-          {{"bufferView", kViews + number}, {"mimeType", is_png ? "image/png" : "image/jpeg"}});
-    }
-    return {{"index", number}};
+    document_["materials"].push_back(materials_.describe(material));
+    v_from_bottom_.push_back(material.look.v_from_bottom);
   }
 
   /// Adds a part; returns false if it has no triangles.
@@ -187,7 +162,7 @@ class GlbWriter {
       document_["bufferViews"].push_back(std::move(described));
       offset += views_[view].bytes.size();
     }
-    for (const EncodedImage& picture : pictures_) {
+    for (const EncodedImage& picture : materials_.pictures()) {
       document_["bufferViews"].push_back(
           {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", picture->size()}});
       offset += aligned(picture->size());
@@ -197,7 +172,7 @@ class GlbWriter {
 
   json document_;
   std::array<ByteWriter, kViews> views_;
-  std::vector<EncodedImage> pictures_;  ///< Images; their views follow those of `views_`.
+  GltfMaterialWriter materials_;  ///< The views of its images follow those of `views_`.
   /// For each material: texture rows count from below, unlike in glTF.
   std::vector<bool> v_from_bottom_;
 };

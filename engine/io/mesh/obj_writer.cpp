@@ -1,13 +1,10 @@
 #include "engine/io/mesh/obj_writer.h"
 
-#include <unistd.h>
-
-#include <charconv>
 #include <string>
-#include <string_view>
-#include <type_traits>
 
 #include "engine/io/bytes.h"
+#include "engine/io/mesh/export_folder.h"
+#include "engine/io/text_writer.h"
 
 namespace sunder {
 namespace {
@@ -15,30 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMaterials = "materials.mtl";
-
-/// A text buffer; numbers are written in the shortest form that is exact.
-class Text {
- public:
-  Text& operator<<(std::string_view words) {
-    for (const char c : words) out_.put(c);
-    return *this;
-  }
-  template <class Number>
-  requires std::is_arithmetic_v<Number> Text& operator<<(Number number) {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
-    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
-  }
-  template <class Derived>
-  Text& operator<<(const Eigen::MatrixBase<Derived>& vector) {
-    for (Eigen::Index i = 0; i < vector.size(); ++i) *this << (i > 0 ? " " : "") << vector(i);
-    return *this;
-  }
-  void write(const fs::path& file) const { write_file(file, out_.bytes); }
-
- private:
-  ByteWriter out_;
-};
 
 /// Returns a material name without blanks, which OBJ and MTL do not allow.
 std::string as_word(std::string name) {
@@ -49,14 +22,14 @@ std::string as_word(std::string name) {
 }
 
 void write_materials(const fs::path& file, const Model& model) {
-  Text out;
+  TextWriter out;
   for (const Model::Material& material : model.materials) {
     out << "newmtl " << as_word(material.name) << "\nKd " << material.look.color << "\n";
   }
-  out.write(file);
+  write_file(file, out.text);
 }
 
-void write_triangles(Text& out, const std::string& material,
+void write_triangles(TextWriter& out, const std::string& material,
                      const std::vector<std::uint32_t>& indices, const ShellTriangles& triangles,
                      std::size_t first_point, std::size_t first_vertex) {
   out << "usemtl " << as_word(material) << "\n";
@@ -69,7 +42,7 @@ void write_triangles(Text& out, const std::string& material,
 }
 
 void write_part(const fs::path& file, const Model::Part& part, const Model& model) {
-  Text out;
+  TextWriter out;
   out << "mtllib " << kMaterials << "\no " << part.name << "\n";
   std::size_t first_point = 1, first_vertex = 1;
   for (const Model::Shell& shell : part.shells) {
@@ -87,55 +60,22 @@ void write_part(const fs::path& file, const Model::Part& part, const Model& mode
     first_point += shell.mesh->vertices.size();
     first_vertex += triangles.vertices.size();
   }
-  out.write(file);
+  write_file(file, out.text);
 }
 
-/// Throws InputError if a folder has files that were not written by this module.
-void check_replaceable(const fs::path& folder) {
-  if (!fs::exists(folder)) return;
-  bool is_export = fs::is_directory(folder);
-  if (is_export) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      is_export &= name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
-    }
-  }
-  if (!is_export) {
-    throw InputError(
-        folder.string() +
-        ": the folder has files that are not of an earlier export; choose another folder");
-  }
+bool is_own(const std::string& name) {
+  return name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
 }
 
 }  // namespace
 
-void write_obj_folder(const fs::path& folder, const Model& model) {
-  const fs::path place = folder.has_filename() ? folder : folder.parent_path();
-  check_replaceable(place);
-  const std::string process = std::to_string(::getpid());
-  const fs::path partial = place.string() + ".part" + process,
-                 old = place.string() + ".old" + process;
-  std::error_code error;
-  fs::remove_all(partial, error);
-  try {
-    write_materials(partial / kMaterials, model);
-    for (const Model::Part& part : model.parts) {
-      write_part(partial / (part.name + ".obj"), part, model);
-    }
-  } catch (...) {
-    fs::remove_all(partial, error);
-    throw;
+void write_obj_folder(const fs::path& place, const Model& model) {
+  ExportFolder folder(place, is_own);
+  write_materials(folder.path() / kMaterials, model);
+  for (const Model::Part& part : model.parts) {
+    write_part(folder.path() / (part.name + ".obj"), part, model);
   }
-  std::error_code no_old;
-  fs::rename(place, old, no_old);
-  fs::rename(partial, place, error);
-  if (error) {
-    std::error_code ignored;
-    if (!no_old) fs::rename(old, place, ignored);
-    fs::remove_all(partial, ignored);
-    throw FileError(place.string() + ": cannot be written; check the folder and its permissions");
-  }
-  fs::remove_all(old, error);
+  folder.publish();
 }
 
 }  // namespace sunder
