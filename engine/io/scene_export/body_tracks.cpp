@@ -2,6 +2,7 @@
 #include "engine/io/scene_export/body_tracks.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <span>
 
