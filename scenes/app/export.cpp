@@ -1,9 +1,12 @@
-// sunder export: writes a run or a recording as a file for other programs.
+// sunder export: writes a run or a recording as files for other programs.
 //
 // Read first: export_scene().
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"

@@ -2,6 +2,9 @@
 #include "engine/io/scene_export/body_tracks.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <span>
 
 #include "engine/base/parallel.h"
 
@@ -14,7 +17,7 @@ struct BodyTracks::Active {
   std::vector<InstanceSpan> open;  ///< Spans of the meshes of the last frame, ascending.
 
   void add_pose(std::uint32_t number, const FrameBody& body);
-  void set_drawn(std::uint32_t number, Drawn now);
+  void set_drawn(std::uint32_t number, std::span<const Drawn::value_type> now);
 };
 
 namespace {
@@ -25,6 +28,34 @@ std::pair<std::uint32_t, std::uint32_t> order_of(const InstanceSpan& span) {
   return {span.mesh.value, span.material.value};
 }
 
+/// The meshes that a frame draws, by body.
+class DrawnMeshes {
+ public:
+  using Item = std::pair<MeshIndex, MaterialIndex>;
+
+  explicit DrawnMeshes(const Frame& frame) : first_(frame.bodies.size() + 1) {
+    const auto is_drawn = [&](const Instance& instance) {
+      return !(*frame.meshes)[instance.mesh.value]->indices.empty();
+    };
+    for (const Instance& instance : frame.instances) {
+      if (is_drawn(instance)) ++first_[instance.body + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    items_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const Instance& instance : frame.instances) {
+      if (is_drawn(instance)) items_[next[instance.body]++] = {instance.mesh, instance.material};
+    }
+  }
+  std::span<const Item> on(std::size_t body) const {
+    return std::span(items_).subspan(first_[body], first_[body + 1] - first_[body]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;  ///< For each body, the number of items of those before.
+  std::vector<Item> items_;
+};
+
 }  // namespace
 
 void BodyTracks::Active::add_pose(std::uint32_t number, const FrameBody& body) {
@@ -33,8 +64,8 @@ void BodyTracks::Active::add_pose(std::uint32_t number, const FrameBody& body) {
 }
 
 /// Ends the spans of meshes that are no longer drawn, and begins those of new ones.
-void BodyTracks::Active::set_drawn(std::uint32_t number, Drawn now) {
-  if (now == drawn) return;
+void BodyTracks::Active::set_drawn(std::uint32_t number, std::span<const Drawn::value_type> now) {
+  if (std::ranges::equal(now, drawn)) return;
   std::vector<InstanceSpan> wanted, kept, ended, begun;
   for (const auto& [mesh, material] : now) wanted.push_back({mesh, material, number});
   std::ranges::sort(wanted, {}, order_of);
@@ -48,7 +79,7 @@ void BodyTracks::Active::set_drawn(std::uint32_t number, Drawn now) {
   track.spans.insert(track.spans.end(), ended.begin(), ended.end());
   open.clear();
   std::ranges::merge(kept, begun, std::back_inserter(open), is_before);
-  drawn = std::move(now);
+  drawn.assign(now.begin(), now.end());
 }
 
 BodyTracks::BodyTracks(const PositionKeys& positions, const RotationKeys& rotations,
@@ -56,16 +87,6 @@ BodyTracks::BodyTracks(const PositionKeys& positions, const RotationKeys& rotati
     : positions_(positions), rotations_(rotations), take_(std::move(take)) {}
 
 BodyTracks::~BodyTracks() = default;
-
-/// Returns the meshes that are drawn on each body of a frame.
-std::vector<BodyTracks::Drawn> BodyTracks::drawn_on_bodies(const Frame& frame) const {
-  std::vector<Drawn> drawn(frame.bodies.size());
-  for (const Instance& instance : frame.instances) {
-    const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
-    if (!mesh.indices.empty()) drawn[instance.body].push_back({instance.mesh, instance.material});
-  }
-  return drawn;
-}
 
 void BodyTracks::skip(const Frame& frame) {
   for (const FrameBody& body : frame.bodies) {
@@ -119,12 +140,12 @@ void BodyTracks::match(std::uint32_t number, const Frame& frame) {
 }
 
 void BodyTracks::add(std::uint32_t number, const Frame& frame) {
-  std::vector<Drawn> drawn = drawn_on_bodies(frame);
+  const DrawnMeshes drawn(frame);
   match(number, frame);
   for_chunks(active_.size(), kBodiesAChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
       active_[i]->add_pose(number, frame.bodies[i]);
-      active_[i]->set_drawn(number, std::move(drawn[i]));
+      active_[i]->set_drawn(number, drawn.on(i));
     }
   });
 }

@@ -56,7 +56,6 @@ class BodyTracks {
   struct Active;
   using Drawn = std::vector<std::pair<MeshIndex, MaterialIndex>>;
 
-  std::vector<Drawn> drawn_on_bodies(const Frame& frame) const;
   void match(std::uint32_t number, const Frame& frame);
   std::uint64_t parent_of(const FrameBody& body) const;
   void end(Active& active);

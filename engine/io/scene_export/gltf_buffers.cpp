@@ -1,5 +1,6 @@
 #include "engine/io/scene_export/gltf_buffers.h"
 
+#include <cstddef>
 #include <string_view>
 
 namespace sunder {

@@ -2,9 +2,11 @@
 #include "engine/io/scene_export/gltf_scene_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <optional>
+#include <span>
 #include <unordered_set>
 
 #include <nlohmann/json.hpp>

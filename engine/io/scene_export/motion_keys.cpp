@@ -12,6 +12,9 @@ namespace {
 /// that computes in single precision.
 constexpr double kUsedTolerance = 0.97;
 constexpr double kQuaternionSteps = 32767;
+/// Distance of two quaternions below which both interpolations differ by less than 4e-6 rad, which
+/// is less than the fraction of any tolerance that is left for rounding.
+constexpr double kAlikeChord = 0.05;
 
 }  // namespace
 
@@ -45,6 +48,7 @@ RotationKeys::Read RotationKeys::read(const Key& key) {
 
 RotationKeys::Segment::Segment(const RotationKeys& keys, const Read& from, const Read& to)
     : keys_(keys), from_(from), to_(to) {
+  if ((to - from).squaredNorm() < kAlikeChord * kAlikeChord) return;
   angle_ = 2 * arc_tangent((to - from).norm(), (to + from).norm());
   sine_ = sin_cos(angle_).sin;
 }
@@ -52,8 +56,7 @@ RotationKeys::Segment::Segment(const RotationKeys& keys, const Read& from, const
 bool RotationKeys::Segment::is_close(double share, const Value& value) const {
   const Read linear = ((1 - share) * from_ + share * to_).normalized();
   if (!is_close(linear, value)) return false;
-  constexpr double kLeastSine = 1e-6;  // below, both interpolations are equal
-  if (sine_ < kLeastSine) return true;
+  if (sine_ == 0) return true;
   const Read spherical = (sin_cos((1 - share) * angle_).sin * from_ +  //
                           sin_cos(share * angle_).sin * to_) /
                          sine_;

@@ -71,7 +71,8 @@ class RotationKeys {
 
     const RotationKeys& keys_;
     Read from_, to_;
-    double angle_, sine_;  ///< Angle between the two quaternions, and its sine.
+    /// Angle between the two quaternions, and its sine; 0 if both interpolations are alike.
+    double angle_ = 0, sine_ = 0;
   };
 
  private:
