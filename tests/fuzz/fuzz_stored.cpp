@@ -54,14 +54,15 @@ void check_frame(const Frame& frame) {
     SUNDER_CHECK(instance.body < frame.bodies.size());
     SUNDER_CHECK(instance.mesh.value < frame.meshes->size());
   }
-  for (const auto& mesh : *frame.meshes) {
+  frame.meshes->for_each([&](std::size_t i) {
+    const std::shared_ptr<const Mesh>& mesh = (*frame.meshes)[i];
     SUNDER_CHECK(mesh->material.value < frame.materials->size());
     for (const std::uint32_t index : mesh->indices) SUNDER_CHECK(index < mesh->vertices.size());
     const std::size_t appearances = frame.appearances ? frame.appearances->size() : 0;
     for (const Mesh::Vertex& vertex : mesh->vertices)
       SUNDER_CHECK(vertex.look < Mesh::kFirstAppearance + appearances);
     SUNDER_CHECK(mesh->uvs.empty() || mesh->uvs.size() == mesh->vertices.size());
-  }
+  });
   for (const FrameDebris& chip : frame.debris)
     SUNDER_CHECK(chip.material.value < frame.materials->size());
   for (const FrameDust& puff : frame.dust)
