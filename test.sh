@@ -18,6 +18,7 @@ install_optional pybind11-dev python3-dev python3-numpy python3-venv
 set_up
 install_optional clang-format-14
 install_optional libbullet-dev libode-dev
+install_optional libjs-three chromium
 install_optional parallel
 
 say "Building everything"

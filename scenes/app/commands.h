@@ -8,6 +8,7 @@
 #include "render/renderer.h"
 #include "scenes/file/mesh_solid.h"
 #include "scenes/load.h"
+#include "scenes/report/view_page.h"
 #include "scenes/timing/timing.h"
 
 namespace sunder::app {
@@ -75,6 +76,10 @@ struct ExportOptions : CommonOptions {
   double tolerance_m = 1e-3;   ///< Largest error of an interpolated position.
   double tolerance_deg = 0.1;  ///< Largest error of an interpolated rotation.
   int frames_per_s = 60;
+};
+
+struct ViewOptions : ExportOptions {  ///< `scene` may also be a GLB file.
+  std::string three = scenes::kThreeFolder;
 };
 
 struct BenchOptions : CommonOptions {
@@ -156,6 +161,7 @@ int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);
 int render_scene(const RenderOptions& options);
 int export_scene(const ExportOptions& options);
+int view(const ViewOptions& options);
 int bench(const BenchOptions& options);
 int trade(const TradeOptions& options);
 int fracture_mesh(const FractureOptions& options);

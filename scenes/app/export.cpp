@@ -1,6 +1,8 @@
 // sunder export: writes a run or a recording as a file for other programs.
 //
-// Read first: export_scene().
+// Read first: export_scene() and write_run().
+#include "scenes/app/export.h"
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,7 +12,6 @@
 #include "engine/io/figures.h"
 #include "engine/io/frames_ahead.h"
 #include "engine/io/recording/recording.h"
-#include "engine/io/scene_export/gltf_scene_writer.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -92,9 +93,7 @@ void write_figures(const ExportOptions& options, const GltfSceneFigures& figures
 
 }  // namespace
 
-int export_scene(const ExportOptions& options) {
-  options.apply();
-  check_output(options);
+WrittenRun write_run(const ExportOptions& options) {
   const ExportInput input =
       options.scene.ends_with(".take") ? open_recording(options) : open_scene(options);
   GltfSceneWriter writer(options.output, {.scene = input.name,
@@ -108,18 +107,23 @@ int export_scene(const ExportOptions& options) {
   FrameSink* const sinks[] = {&writer, &progress};
   const int stopped = pump_until_stopped(ahead ? static_cast<FrameSource&>(*ahead) : frames, sinks);
   ahead.reset();
-  if (writer.figures().frames == 0) {
+  return {writer.figures(), input.name, input.recording ? input.recording->damage() : "", stopped};
+}
+
+int export_scene(const ExportOptions& options) {
+  options.apply();
+  check_output(options);
+  const WrittenRun run = write_run(options);
+  if (run.figures.frames == 0) {
     options.print("stopped before the first frame; nothing is written\n");
   } else {
-    options.print((stopped == 0 ? "wrote " : "stopped; wrote the frames so far: ") +
-                  summary(options, writer.figures()));
+    options.print((run.stopped == 0 ? "wrote " : "stopped; wrote the frames so far: ") +
+                  summary(options, run.figures));
   }
-  write_figures(options, writer.figures());
-  if (input.recording && !input.recording->damage().empty()) {
-    throw InputError(options.scene + ": " + input.recording->damage() +
-                     "; the frames before were exported");
-  }
-  return stopped;
+  write_figures(options, run.figures);
+  if (!run.damage.empty())
+    throw InputError(options.scene + ": " + run.damage + "; the frames before were exported");
+  return run.stopped;
 }
 
 }  // namespace sunder::app
