@@ -44,8 +44,8 @@ SYNTAX = {
     "sunder render SCENE|X.take|X.frame -o X.mp4|X.webm|X.png|DIR/":
         ["sunder render stack -o x.png", "sunder render house.take -o frames/",
          "sunder render tests/golden/stack.frame -o x.webm"],
-    "sunder export SCENE|X.take -o X.glb":
-        ["sunder export stack -o x.glb", "sunder export house.take -o x.glb"],
+    "sunder export SCENE|X.take -o X.glb|DIR/":
+        ["sunder export stack -o x.glb", "sunder export house.take -o meshes/"],
     "sunder view SCENE|X.take|X.glb -o X.html":
         ["sunder view stack -o x.html", "sunder view house.take -o x.html"],
     "sunder bench [SCENE...]": ["sunder bench", "sunder bench stack"],

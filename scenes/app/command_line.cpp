@@ -128,29 +128,33 @@ void add_render(CLI::App& program, Command& chosen) {
 }
 
 void add_export(CLI::App& program, Command& chosen) {
-  Subcommand<ExportOptions> command(program, "export", "A run as a file for other programs",
+  Subcommand<ExportOptions> command(program, "export", "A run as files for other programs",
                                     export_scene, chosen);
   ExportOptions& options = *command.options;
   command.app->add_option("SCENE", options.scene, "File or name of a scene, or a .take file")
       ->required();
-  command.app->add_option("-o,--output", options.output, "X.glb: animated glTF")->required();
+  command.app
+      ->add_option("-o,--output", options.output,
+                   "X.glb: animated glTF; DIR/: a mesh file per frame")
+      ->required();
   command.app
       ->add_option("--tolerance", options.tolerance_m,
-                   "Distance in metres by which the motion may differ between keys")
+                   "glTF: distance by which a body may be from its place in any frame; 0.001 by "
+                   "default")
       ->type_name("METRES")
-      ->check(from_to(1e-5, 10.0))
-      ->capture_default_str();
+      ->check(from_to(1e-5, 10.0));
   command.app
       ->add_option("--angle", options.tolerance_deg,
-                   "Angle in degrees by which the motion may differ between keys")
+                   "glTF: angle by which a body may be turned in any frame; 0.1 by default")
       ->type_name("DEGREES")
-      ->check(from_to(0.01, 45.0))
-      ->capture_default_str();
+      ->check(from_to(0.01, 45.0));
+  command.app->add_option("--format", options.format, "Mesh files in DIR/: obj, by default, or ply")
+      ->type_name("NAME");
   command.app->add_option("--fps", options.frames_per_s, "Frames per second; a divisor of 60")
       ->check(from_to(1, 60))
       ->capture_default_str();
   command.reads("SCENE", options.scene);
-  command.writes("-o", options.output);
+  command.writes("-o", options.output, true);
   command.add_frames();
   command.add_changes();
   command.app->get_option("--preset")->each([&options](const std::string&) {

@@ -72,9 +72,10 @@ struct ExportOptions : CommonOptions {
   scenes::LoadOptions load;
   bool preset_given = false;
   std::string output;
-  int frames = -1;             ///< Index of the last frame; -1: to the end.
-  double tolerance_m = 1e-3;   ///< Largest error of an interpolated position.
-  double tolerance_deg = 0.1;  ///< Largest error of an interpolated rotation.
+  int frames = -1;                      ///< Index of the last frame; -1: to the end.
+  std::optional<double> tolerance_m;    ///< Largest error of an interpolated position.
+  std::optional<double> tolerance_deg;  ///< Largest error of an interpolated rotation.
+  std::string format;                   ///< "obj" or "ply" for a folder; empty: obj.
   int frames_per_s = 60;
 };
 

@@ -9,9 +9,10 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "engine/io/figures.h"
 #include "engine/io/frames_ahead.h"
 #include "engine/io/recording/recording.h"
+#include "engine/io/scene_export/gltf_scene_writer.h"
+#include "engine/io/scene_export/mesh_sequence_writer.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -52,13 +53,22 @@ ExportInput open_scene(const ExportOptions& options) {
   return input;
 }
 
-/// Throws InputError if the output is not a file that can be written.
+bool is_glb(const ExportOptions& options) { return options.output.ends_with(".glb"); }
+
+/// Throws InputError if the output is neither a GLB nor a folder, or options are for the other.
 void check_output(const ExportOptions& options) {
-  if (!options.output.ends_with(".glb")) {
-    throw InputError("-o " + options.output + ": expected a name that ends in .glb");
+  const std::string name = "-o " + options.output;
+  const bool is_folder = std::filesystem::is_directory(options.output);
+  if (!is_glb(options) && !is_folder && !options.output.ends_with("/")) {
+    throw InputError(name + ": expected X.glb, or a folder, DIR/, for a mesh file per frame");
   }
-  if (std::filesystem::is_directory(options.output)) {
-    throw InputError("-o " + options.output + ": is a folder; give the name of a file");
+  if (is_glb(options) && is_folder) {
+    throw InputError(name + ": is a folder; give the name of a file");
+  }
+  if (is_glb(options) && !options.format.empty())
+    throw InputError("--format " + options.format + ": is for a folder, -o DIR/");
+  if (!is_glb(options) && (options.tolerance_m || options.tolerance_deg)) {
+    throw InputError(name + ": mesh files have every frame; remove --tolerance and --angle");
   }
   if (60 % options.frames_per_s != 0) {
     throw InputError("--fps " + std::to_string(options.frames_per_s) +
@@ -66,61 +76,111 @@ void check_output(const ExportOptions& options) {
   }
 }
 
-std::string summary(const ExportOptions& options, const GltfSceneFigures& figures) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                ", %.2f MB: %llu frames, %llu bodies, %llu meshes, %.1f %% of the poses as keys\n",
-                static_cast<double>(figures.bytes) / 1e6,
-                static_cast<unsigned long long>(figures.frames),
-                static_cast<unsigned long long>(figures.bodies),
-                static_cast<unsigned long long>(figures.meshes),
-                50.0 * static_cast<double>(figures.keys) /
-                    static_cast<double>(std::max<std::uint64_t>(1, figures.samples)));
-  return options.output + text;
+std::string megabytes_of(std::uint64_t bytes) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f MB", static_cast<double>(bytes) / 1e6);
+  return text;
 }
 
-void write_figures(const ExportOptions& options, const GltfSceneFigures& figures) {
-  const auto number = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
-  options.write_json(format_figures({{"/output", options.output},
-                                     {"/frames", number(figures.frames)},
-                                     {"/bodies", number(figures.bodies)},
-                                     {"/meshes", number(figures.meshes)},
-                                     {"/breaks", number(figures.breaks)},
-                                     {"/samples", number(figures.samples)},
-                                     {"/keys", number(figures.keys)},
-                                     {"/bytes", number(figures.bytes)}}));
+/// A sink that writes the files, with what is said of them at the end.
+class Exporter : public FrameSink {
+ public:
+  virtual std::uint64_t frames() const = 0;
+  virtual std::string summary() const = 0;
+  virtual Figures figures() const = 0;
+};
+
+class GltfExporter final : public Exporter {
+ public:
+  GltfExporter(const ExportOptions& options, const std::string& name)
+      : writer_(options.output, gltf_options(options, name)) {}
+  void take(const FramePtr& frame) override { writer_.take(frame); }
+  void finish() override { writer_.finish(); }
+  std::uint64_t frames() const override { return writer_.figures().frames; }
+  std::string summary() const override {
+    const GltfSceneFigures& all = writer_.figures();
+    return megabytes_of(all.bytes) + ": " + std::to_string(all.frames) + " frames, " +
+           std::to_string(all.bodies) + " bodies, " + std::to_string(all.meshes) + " meshes";
+  }
+  Figures figures() const override {
+    const GltfSceneFigures& all = writer_.figures();
+    const auto number = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
+    return {{"/frames", number(all.frames)},   {"/bodies", number(all.bodies)},
+            {"/meshes", number(all.meshes)},   {"/breaks", number(all.breaks)},
+            {"/samples", number(all.samples)}, {"/keys", number(all.keys)},
+            {"/bytes", number(all.bytes)}};
+  }
+
+ private:
+  static GltfSceneOptions gltf_options(const ExportOptions& options, const std::string& name) {
+    GltfSceneOptions made;
+    made.scene = name;
+    made.tolerance_m = options.tolerance_m.value_or(made.tolerance_m);
+    made.tolerance_deg = options.tolerance_deg.value_or(made.tolerance_deg);
+    made.frames_per_s = options.frames_per_s;
+    return made;
+  }
+  GltfSceneWriter writer_;
+};
+
+class SequenceExporter final : public Exporter {
+ public:
+  explicit SequenceExporter(const ExportOptions& options)
+      : writer_(options.output, sequence_format(options.format.empty() ? "obj" : options.format),
+                options.frames_per_s) {}
+  void take(const FramePtr& frame) override { writer_.take(frame); }
+  void finish() override { writer_.finish(); }
+  std::uint64_t frames() const override { return writer_.frames(); }
+  std::string summary() const override {
+    return megabytes_of(writer_.bytes()) + ": " + std::to_string(writer_.frames()) + " frames";
+  }
+  Figures figures() const override {
+    return {{"/frames", static_cast<std::int64_t>(writer_.frames())},
+            {"/bytes", static_cast<std::int64_t>(writer_.bytes())}};
+  }
+
+ private:
+  MeshSequenceWriter writer_;
+};
+
+std::unique_ptr<Exporter> make_exporter(const ExportOptions& options, const std::string& name) {
+  if (is_glb(options)) return std::make_unique<GltfExporter>(options, name);
+  return std::make_unique<SequenceExporter>(options);
 }
 
 }  // namespace
 
-WrittenRun write_run(const ExportOptions& options) {
+WrittenRun write_run(const ExportOptions& options, const std::string& command) {
   const ExportInput input =
       options.scene.ends_with(".take") ? open_recording(options) : open_scene(options);
-  GltfSceneWriter writer(options.output, {.scene = input.name,
-                                          .tolerance_m = options.tolerance_m,
-                                          .tolerance_deg = options.tolerance_deg,
-                                          .frames_per_s = options.frames_per_s});
-  Progress progress("export " + input.name, input.last, options.quiet);
+  const std::unique_ptr<Exporter> exporter = make_exporter(options, input.name);
+  Progress progress(command + " " + input.name, input.last, options.quiet);
   FramesUntil frames(*input.source, input.last);
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
-  FrameSink* const sinks[] = {&writer, &progress};
+  FrameSink* const sinks[] = {exporter.get(), &progress};
   const int stopped = pump_until_stopped(ahead ? static_cast<FrameSource&>(*ahead) : frames, sinks);
   ahead.reset();
-  return {writer.figures(), input.name, input.recording ? input.recording->damage() : "", stopped};
+  return {exporter->frames(),
+          exporter->summary(),
+          exporter->figures(),
+          input.name,
+          stopped,
+          input.recording ? input.recording->damage() : ""};
 }
 
 int export_scene(const ExportOptions& options) {
   options.apply();
   check_output(options);
-  const WrittenRun run = write_run(options);
-  if (run.figures.frames == 0) {
+  WrittenRun run = write_run(options, "export");
+  if (run.frames == 0) {
     options.print("stopped before the first frame; nothing is written\n");
   } else {
     options.print((run.stopped == 0 ? "wrote " : "stopped; wrote the frames so far: ") +
-                  summary(options, run.figures));
+                  options.output + ", " + run.summary + "\n");
   }
-  write_figures(options, run.figures);
+  run.figures["/output"] = options.output;
+  options.write_json(format_figures(run.figures));
   if (!run.damage.empty())
     throw InputError(options.scene + ": " + run.damage + "; the frames before were exported");
   return run.stopped;

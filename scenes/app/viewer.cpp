@@ -65,8 +65,8 @@ int view(const ViewOptions& options) {
   const TemporaryFile file(temporary_name(options.output) += ".glb");
   ExportOptions exported = options;
   exported.output = file.path().string();
-  const WrittenRun run = write_run(exported);
-  if (run.figures.frames == 0) {
+  const WrittenRun run = write_run(exported, "view");
+  if (run.frames == 0) {
     options.print("stopped before the first frame; nothing is written\n");
     return run.stopped;
   }

@@ -2,10 +2,13 @@
 // the program; wrong input and full disks leave nothing behind.
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -138,13 +141,115 @@ TEST_F(SceneExport, OfATruncatedRecordingHasTheWholeFramesAndSaysHowMany) {
   EXPECT_TRUE(bytes_of(folder_ / "cut.glb").starts_with("glTF"));
 }
 
+/// Bounds and sizes of what a frame draws.
+struct Drawn {
+  Box box;
+  std::size_t vertices = 0, faces = 0, bodies = 0;
+};
+
+Drawn drawn_in(const std::string& take, std::uint32_t frame) {
+  RecordingReader reader(take);
+  reader.seek(frame);
+  const FramePtr at = reader.next();
+  Drawn drawn;
+  std::set<std::uint32_t> bodies;
+  for (const Instance& instance : at->instances) {
+    const FrameBody& body = at->bodies[instance.body];
+    const Mesh& mesh = *(*at->meshes)[instance.mesh.value];
+    bodies.insert(instance.body);
+    drawn.vertices += mesh.vertices.size();
+    drawn.faces += mesh.indices.size() / 3;
+    for (const Mesh::Vertex& vertex : mesh.vertices) {
+      const Vec3 point_T = mesh.origin_T + vertex.position.cast<double>();
+      drawn.box.extend(body.X_WB * (mesh.X_RT * point_T - body.com_R));
+    }
+  }
+  drawn.bodies = bodies.size();
+  return drawn;
+}
+
+void expect_same(const Drawn& found, const Drawn& expected) {
+  EXPECT_EQ(found.vertices, expected.vertices);
+  EXPECT_EQ(found.faces, expected.faces);
+  EXPECT_EQ(found.bodies, expected.bodies);
+  EXPECT_LT((found.box.min - expected.box.min).norm(), 1e-5);
+  EXPECT_LT((found.box.max - expected.box.max).norm(), 1e-5);
+}
+
+Drawn drawn_in_obj(const std::string& file) {
+  Drawn drawn;
+  std::istringstream text(bytes_of(file));
+  for (std::string word; text >> word;) {
+    Vec3 v;
+    if (word == "v" && text >> v.x() >> v.y() >> v.z()) drawn.box.extend(v), ++drawn.vertices;
+    drawn.faces += word == "f";
+    drawn.bodies += word == "o";
+  }
+  return drawn;
+}
+
+Drawn drawn_in_ply(const std::string& file) {
+  const std::string bytes = bytes_of(file);
+  const auto number_after = [&](const std::string& words) {
+    return std::stoul(bytes.substr(bytes.find(words) + words.size()));
+  };
+  Drawn drawn;
+  drawn.vertices = number_after("element vertex ");
+  drawn.faces = number_after("element face ");
+  const std::size_t begin = bytes.find("end_header\n") + 11;
+  constexpr std::size_t kVertexBytes = 31, kFaceBytes = 13;
+  EXPECT_EQ(bytes.size(), begin + kVertexBytes * drawn.vertices + kFaceBytes * drawn.faces);
+  std::set<std::uint32_t> keys;
+  for (std::size_t v = 0; v < drawn.vertices; ++v) {
+    float position[3];
+    std::uint32_t key = 0;
+    std::memcpy(position, bytes.data() + begin + kVertexBytes * v, sizeof position);
+    std::memcpy(&key, bytes.data() + begin + kVertexBytes * v + 27, sizeof key);
+    drawn.box.extend(Vec3(position[0], position[1], position[2]));
+    keys.insert(key);
+  }
+  drawn.bodies = keys.size();
+  return drawn;
+}
+
+TEST_F(SceneExport, OfMeshFilesHasOneOfEveryFrame) {
+  const std::string obj = folder_ / "obj", ply = folder_ / "ply";
+  for (const std::string& rest : {obj + "/ --fps 30", ply + "/ --format ply --fps 30"}) {
+    const Outcome outcome = sunder("export " + recording() + " --quiet -o " + rest);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  EXPECT_EQ(files(), 2u + 46u + 46u + 1u);  // frames 0, 2, ... 90, and the materials
+  for (const std::uint32_t frame : {0u, 20u, 45u}) {
+    const Drawn expected = drawn_in(recording(), 2 * frame);
+    char name[20];
+    std::snprintf(name, sizeof name, "/frame_%05u.", frame);
+    expect_same(drawn_in_obj(obj + name + "obj"), expected);
+    expect_same(drawn_in_ply(ply + name + "ply"), expected);
+  }
+}
+
+TEST_F(SceneExport, OfMeshFilesReplacesOnlyAFolderOfItsOwn) {
+  const std::string run =
+      "export " + recording() + " --quiet -o " + (folder_ / "a/") + " --frames ";
+  ASSERT_EQ(sunder(run + "4").exit_code, 0);
+  ASSERT_EQ(sunder(run + "2").exit_code, 0);
+  EXPECT_EQ(files(), 1u + 3u + 1u);
+  std::ofstream(folder_ / "a/mine.txt") << "mine";
+  expect_refused(recording() + " --quiet -o a/", 2, "choose another folder");
+  EXPECT_EQ(bytes_of(folder_ / "a/mine.txt"), "mine");
+}
+
 TEST_F(SceneExport, RefusesWrongInput) {
   std::ofstream(folder_ / "noise.take") << "not a recording";
   fs::create_directory(folder_ / "d.glb");
   fs::copy_file(recording(), folder_ / "run.take");
   const std::string run = "run.take --quiet -o ";
-  expect_refused(run + "x", 2, "ends in .glb");
-  expect_refused(run + "x.blend", 2, "ends in .glb");
+  expect_refused(run + "x", 2, "expected X.glb, or a folder");
+  expect_refused(run + "x.blend", 2, "expected X.glb, or a folder");
+  expect_refused(run + "run.take/", 2, "is a file");
+  expect_refused(run + "x/ --format stl", 2, "expected obj or ply");
+  expect_refused(run + "x/ --tolerance 0.1", 2, "remove --tolerance");
+  expect_refused(run + "x.glb --format obj", 2, "is for a folder");
   expect_refused(run + "d.glb", 2, "is a folder");
   expect_refused("noise.take -o x.glb", 2, "not a recording");
   expect_refused("missing.take -o x.glb", 2, "cannot be read");
@@ -162,6 +267,7 @@ TEST_F(SceneExport, RefusesWrongInput) {
 TEST_F(SceneExport, LeavesNothingOnAFullDisk) {
   fs::copy_file(recording(), folder_ / "run.take");
   expect_refused("run.take --quiet -o x.glb", 1, "is the disk full?", "trap '' XFSZ; ulimit -f 1;");
+  expect_refused("run.take --quiet -o x/", 1, "is the disk full?", "trap '' XFSZ; ulimit -f 1;");
   expect_refused("run.take --quiet -o run.take/x.glb", 1, "cannot be written");
 }
 

@@ -1,10 +1,9 @@
 #include "engine/io/mesh/obj_writer.h"
 
-#include <unistd.h>
-
 #include <string>
 
 #include "engine/io/bytes.h"
+#include "engine/io/mesh/export_folder.h"
 #include "engine/io/text_writer.h"
 
 namespace sunder {
@@ -64,52 +63,19 @@ void write_part(const fs::path& file, const Model::Part& part, const Model& mode
   write_file(file, out.text);
 }
 
-/// Throws InputError if a folder has files that were not written by this module.
-void check_replaceable(const fs::path& folder) {
-  if (!fs::exists(folder)) return;
-  bool is_export = fs::is_directory(folder);
-  if (is_export) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      is_export &= name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
-    }
-  }
-  if (!is_export) {
-    throw InputError(
-        folder.string() +
-        ": the folder has files that are not of an earlier export; choose another folder");
-  }
+bool is_own(const std::string& name) {
+  return name == kMaterials || (name.starts_with("piece_") && name.ends_with(".obj"));
 }
 
 }  // namespace
 
-void write_obj_folder(const fs::path& folder, const Model& model) {
-  const fs::path place = folder.has_filename() ? folder : folder.parent_path();
-  check_replaceable(place);
-  const std::string process = std::to_string(::getpid());
-  const fs::path partial = place.string() + ".part" + process,
-                 old = place.string() + ".old" + process;
-  std::error_code error;
-  fs::remove_all(partial, error);
-  try {
-    write_materials(partial / kMaterials, model);
-    for (const Model::Part& part : model.parts) {
-      write_part(partial / (part.name + ".obj"), part, model);
-    }
-  } catch (...) {
-    fs::remove_all(partial, error);
-    throw;
+void write_obj_folder(const fs::path& place, const Model& model) {
+  ExportFolder folder(place, is_own);
+  write_materials(folder.path() / kMaterials, model);
+  for (const Model::Part& part : model.parts) {
+    write_part(folder.path() / (part.name + ".obj"), part, model);
   }
-  std::error_code no_old;
-  fs::rename(place, old, no_old);
-  fs::rename(partial, place, error);
-  if (error) {
-    std::error_code ignored;
-    if (!no_old) fs::rename(old, place, ignored);
-    fs::remove_all(partial, ignored);
-    throw FileError(place.string() + ": cannot be written; check the folder and its permissions");
-  }
-  fs::remove_all(old, error);
+  folder.publish();
 }
 
 }  // namespace sunder

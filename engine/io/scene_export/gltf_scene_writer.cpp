@@ -15,6 +15,7 @@
 #include "engine/io/mesh/gltf_material_writer.h"
 #include "engine/io/scene_export/body_tracks.h"
 #include "engine/io/scene_export/gltf_buffers.h"
+#include "engine/io/scene_export/run_materials.h"
 #include "engine/io/scene_export/side_data.h"
 
 namespace sunder {
@@ -85,28 +86,6 @@ Quat looking_along(const Vec3& direction) {
 
 Eigen::Vector4f as_vector(const Quat& rotation) { return rotation.coeffs().cast<float>(); }
 
-/// Returns the colours of the glTF materials: two for each material of the scene, then those of
-/// appearances, then that of the ground.
-std::vector<Model::Material> materials_of(const Frame& frame) {
-  std::vector<Model::Material> made;
-  for (const Material& material : *frame.materials) {
-    const auto add = [&](const std::string& name, const Look& look) {
-      Appearance appearance{look.color, nullptr};
-      if (look.texture == Texture::kMetal) appearance.gloss = MetallicRoughness{0.5f, 1, nullptr};
-      if (look.texture == Texture::kGlass) appearance.gloss = MetallicRoughness{0.05f, 0, nullptr};
-      made.push_back({name, appearance});
-    };
-    add(material.name, material.surface);
-    add(material.name + " inside", material.interior);
-  }
-  if (frame.appearances) {
-    for (std::size_t a = 0; a < frame.appearances->size(); ++a)
-      made.push_back({"appearance " + std::to_string(a + 1), (*frame.appearances)[a]});
-  }
-  made.push_back({"ground", {frame.view.ground_color, nullptr}});
-  return made;
-}
-
 }  // namespace
 
 /// A document being made; implements the members of GltfSceneWriter.
@@ -136,7 +115,6 @@ class GltfSceneWriter::Scene {
                              std::vector<InstanceSpan>::const_iterator end, const BodyRecord& body);
   std::size_t describe_instance(const InstanceSpan& span, const BodyRecord& body);
   std::size_t mesh_number(const InstanceSpan& span);
-  std::size_t material_number(std::uint32_t look, MaterialIndex material);
   std::size_t used_material(std::size_t index);
   void animate(std::size_t node, const char* path, const Track& track, bool is_step);
   void animate_visibility(std::size_t node, std::uint32_t begin, std::uint32_t end);
@@ -162,7 +140,7 @@ class GltfSceneWriter::Scene {
   std::vector<MeshRecord> meshes_;
   std::vector<BodyRecord> bodies_;
 
-  std::vector<Model::Material> materials_;   ///< That the document may use, materials_of().
+  std::vector<Model::Material> materials_;   ///< That the document may use, materials_of_run().
   std::vector<std::size_t> used_materials_;  ///< Indices in `materials_`, in the document's order.
   GltfMaterialWriter material_writer_;
   JsonList nodes_, mesh_list_, channels_, samplers_;
@@ -193,7 +171,7 @@ void GltfSceneWriter::Scene::take(const FramePtr& frame) {
     first->appearances = frame->appearances;
     first->names = frame->names;
     first_ = first;
-    materials_ = materials_of(*frame);
+    materials_ = materials_of_run(*frame);
   }
   side_data_.add_times(*frame);
   add_meshes(*frame);
@@ -334,15 +312,8 @@ void GltfSceneWriter::Scene::describe_ground() {
              << Vec3f(Vec3f::Constant(static_cast<float>(half_m))) << "]}";
 }
 
-/// Returns the number in the document of the material of faces.
-std::size_t GltfSceneWriter::Scene::material_number(std::uint32_t look, MaterialIndex material) {
-  const std::size_t appearances = 2 * first_->materials->size();
-  if (look >= Mesh::kFirstAppearance)
-    return used_material(appearances + look - Mesh::kFirstAppearance);
-  return used_material(2 * std::size_t{material.value} + (look == Mesh::kInterior ? 1 : 0));
-}
-
-/// Returns the number in the document of an element of materials_of(), and adds it if it is new.
+/// Returns the number in the document of an element of materials_of_run(), and adds it if it is
+/// new.
 std::size_t GltfSceneWriter::Scene::used_material(std::size_t index) {
   const auto known = std::ranges::find(used_materials_, index);
   if (known == used_materials_.end()) used_materials_.push_back(index);
@@ -365,7 +336,8 @@ std::size_t GltfSceneWriter::Scene::mesh_number(const InstanceSpan& span) {
         << ",\"NORMAL\":" << mesh.accessors.normals;
     if (mesh.accessors.uvs) out << ",\"TEXCOORD_0\":" << *mesh.accessors.uvs;
     out << "},\"indices\":" << mesh.accessors.indices[part]
-        << ",\"material\":" << material_number(mesh.looks[part], material) << "}";
+        << ",\"material\":" << used_material(material_of_look(mesh.looks[part], material, *first_))
+        << "}";
   }
   out << "]}";
   return known->second;

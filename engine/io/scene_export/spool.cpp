@@ -35,9 +35,15 @@ Spool::Spool(const std::filesystem::path& path) : path_(path) {
 
 void Spool::write(std::span<const std::byte> bytes) {
   size_ += bytes.size();
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    throw FileError(path_.string() + ": cannot be written; is the disk full?");
-  }
+  end_.insert(end_.end(), bytes.begin(), bytes.end());
+  if (end_.size() >= kMaxInMemory) flush();
+}
+
+void Spool::flush() {
+  const bool is_written = std::fwrite(end_.data(), 1, end_.size(), file_.get()) == end_.size() &&
+                          std::fflush(file_.get()) == 0;
+  if (!is_written) throw FileError(path_.string() + ": cannot be written; is the disk full?");
+  end_.clear();
 }
 
 void Spool::align() {
@@ -46,9 +52,6 @@ void Spool::align() {
 }
 
 void Spool::read(const std::function<void(std::span<const std::byte>)>& take) {
-  if (std::fflush(file_.get()) != 0) {
-    throw FileError(path_.string() + ": cannot be written; is the disk full?");
-  }
   std::rewind(file_.get());
   std::vector<std::byte> block(1 << 16);
   std::uint64_t passed = 0;
@@ -56,6 +59,8 @@ void Spool::read(const std::function<void(std::span<const std::byte>)>& take) {
     take(std::span(block).first(count));
     passed += count;
   }
+  take(end_);
+  passed += end_.size();
   if (passed != size_) throw FileError(path_.string() + ": a temporary file cannot be read back");
 }
 

@@ -9,10 +9,12 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace sunder {
 
-/// A temporary file without a name, so that nothing is left of it however the program ends.
+/// Bytes in memory, and from kMaxInMemory on in a temporary file without a name, so that nothing is
+/// left of it however the program ends.
 class Spool {
  public:
   /// Creates the file in the folder of `path`, or in the folder for temporary files if `path` is a
@@ -29,11 +31,16 @@ class Spool {
   void read(const std::function<void(std::span<const std::byte>)>& take);
 
  private:
+  static constexpr std::size_t kMaxInMemory = 32 << 20;
+
+  void flush();
+
   struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;
+  std::vector<std::byte> end_;  ///< Bytes that are not in the file.
   std::uint64_t size_ = 0;
 };
 
