@@ -6,6 +6,7 @@
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2];
 const kStageColors = ['#e8a87c', '#85b8cb', '#c9b458', '#b08ea2', '#7fb685', '#d98880', '#8e9aaf'];
 const kSlowFrame_ms = 40;  // a lower quality is chosen above
+const kStill_ms = 300;     // time after which a picture that does not move is drawn by the best quality
 const kMedianOf = 60;      // number of frames that the shown time is the median of
 
 const element = id => document.getElementById(id);
@@ -118,7 +119,7 @@ class Timeline {
     }
     context.fillStyle = 'rgba(236,234,230,.62)';
     context.font = '10px system-ui, sans-serif';
-    context.fillText('simulation, up to ' + most.toPrecision(2) + ' ms a frame', 0, 9);
+    context.fillText(`simulation, up to ${most < 10 ? most.toPrecision(2) : most.toFixed(0)} ms a frame`, 0, 9);
   }
 
   // Returns the text about a time for the tooltip, as an element: the breaks near it and the stages.
@@ -155,6 +156,7 @@ class Player {
     this.duration = run.duration_s || this.motion.duration;
     this.stage = new Stage(element('view'), file, this.motion);
     this.timeline = new Timeline(run, this.duration);
+    this.quality = this.stage.quality;  // while the picture moves
     this.time = 0;
     this.speed = 1;
     this.isPlaying = false;
@@ -278,6 +280,7 @@ class Player {
   }
 
   resize() {
+    this.stage.panelHeight = document.querySelector('footer').offsetHeight;
     this.stage.resize();
     this.timeline.draw();
     this.showTime();
@@ -363,13 +366,25 @@ class Player {
       }
     }
     this.controls.update();
-    this.stage.draw();
+    this.draw(now);
+  }
+
+  // Draws, by the best quality once the picture has been still for a while.
+  draw(now) {
+    const {stage} = this;
+    if (stage.isDirty) {
+      stage.setQuality(this.quality);
+      this.changed = now;
+    } else if (!this.isPlaying && now - this.changed > kStill_ms) {
+      stage.setQuality(kBestQuality);
+    }
+    stage.draw(this.isPlaying);
   }
 
   // Writes the times of the frames since the last start to the console.
   report() {
     console.log(`sunder: ${median(this.played).toFixed(1)} ms a frame, median of ${this.played.length}, ` +
-                `longest ${Math.max(...this.played).toFixed(0)} ms, quality ${this.stage.quality}; ` +
+                `longest ${Math.max(...this.played).toFixed(0)} ms, quality ${this.quality}; ` +
                 `opened in ${this.openTime.toFixed(0)} ms`);
   }
 
@@ -379,10 +394,9 @@ class Player {
     this.intervals.push(interval);
     if (this.intervals.length > kMedianOf) this.intervals.shift();
     this.slowFrames = interval > kSlowFrame_ms ? this.slowFrames + 1 : 0;
-    if (this.slowFrames > 20 && this.stage.quality > 0) {
-      --this.stage.quality;
+    if (this.slowFrames > 20 && this.quality > 0) {
+      --this.quality;
       this.slowFrames = 0;
-      this.stage.updateTargets();
     }
     if (this.intervals.length % 15 !== 0 || now() - (this.costTime || 0) < 500) return;
     this.costTime = now();

@@ -42,20 +42,21 @@ const shaders = (() => {
       return dot(step(vec4(at.z), depth), vec4(0.25));
     }`;
 
-  // Light is computed at vertices, which is exact on flat faces; shadows and textures at pixels.
+  // Most bodies are MATT: their colour in the sun and in the shade is computed at vertices, which is
+  // exact on flat faces, and the pixel has their mixture. Others are lit at pixels.
   const bodyVertex = `${common}
     attribute vec4 tint;    // square roots of the colour, opacity
-    attribute vec4 finish;  // roughness, metallic, contrast of the grain
+    attribute vec4 finish;  // roughness, metallic
     uniform mat4 shadowMatrix;
     uniform float normalOffset;
-    varying vec3 direct, around, shadowAt;
+    varying vec3 sunny, shady, shadowAt;  // MATT: on the screen; otherwise light from the sun, from around
     varying vec2 place;
+    #ifndef MATT
     varying float clear;  // transmittance of the air
+    #endif
     #ifdef SHINY
     varying vec3 facing, ray, albedo;
     varying vec3 gloss;  // roughness, metallic, opacity
-    #else
-    varying float contrast;
     #endif
     void main() {
       vec3 n = normal;
@@ -65,41 +66,38 @@ const shaders = (() => {
       #endif
       shadowAt = (shadowMatrix * vec4(position + normalOffset * n, 1.0)).xyz;
       place = uv;
-      clear = exp2(-kHaze * length(toEye));
-      vec3 color = tint.rgb * tint.rgb * (1.0 - 0.85 * finish.y);
-      direct = color * sunLight * max(dot(n, toSun), 0.0);
-      around = color * ambient(n.y);
+      vec3 color = tint.rgb * tint.rgb;
+      vec3 direct = (1.0 - 0.85 * finish.y) * color * sunLight * max(dot(n, toSun), 0.0);
+      vec3 around = (1.0 - 0.85 * finish.y) * color * ambient(n.y);
+      float through = exp2(-kHaze * length(toEye));
+      #ifdef MATT
+      sunny = shown(mix(horizon(), direct + around, through));
+      shady = shown(mix(horizon(), around, through));
+      #else
+      sunny = direct;
+      shady = around;
+      clear = through;
+      #endif
       #ifdef SHINY
       facing = n;
       ray = -toEye;
-      albedo = tint.rgb * tint.rgb;
+      albedo = color;
       gloss = vec3(finish.xy, tint.a);
-      #else
-      contrast = finish.z;
       #endif
       gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
     }`;
 
   const bodyFragment = `${common}${shadow}
-    varying vec3 direct, around, shadowAt;
+    varying vec3 sunny, shady, shadowAt;
     varying vec2 place;
-    varying float clear;
     uniform sampler2D image;  // of the material, otherwise the grain
+    #ifndef MATT
+    varying float clear;
+    #endif
     #ifdef SHINY
     varying vec3 facing, ray, albedo;
     varying vec3 gloss;
-    #else
-    varying float contrast;
-    #endif
-    void main() {
-      float lit = sunlit(shadowAt);
-      vec3 light = direct * lit + around;
-      float alpha = 1.0;
-      #ifdef TEXTURED
-      vec3 texel = texture2D(image, place).rgb;
-      light *= texel * (texel * (texel * 0.305306011 + 0.682171111) + 0.012522878);
-      #endif
-      #ifdef SHINY
+    vec4 shiny(vec3 light, float lit) {
       vec3 n = normalize(facing), to = normalize(ray);
       vec3 mirrored = reflect(to, n);
       float grazing = clamp(1.0 + dot(to, n), 0.0, 1.0);
@@ -107,19 +105,35 @@ const shaders = (() => {
       vec3 world = mix(groundColor * (0.14 * sunLight * toSun.y + 0.3 * skyLight), sky(mirrored),
                        smoothstep(-0.05 - 0.3 * gloss.x, 0.05 + 0.3 * gloss.x, mirrored.y));
       float shine = pow(max(dot(mirrored, toSun), 0.0), mix(300.0, 12.0, min(1.0, gloss.x / 0.6)));
-      vec3 mirror = mix(mix(vec3(0.04), min(1.5 * albedo, vec3(1.0)), gloss.y), vec3(1.0), fresnel);
-      light += mirror * (world + sunLight * lit * shine) * (1.0 - 0.4 * gloss.x);
+      vec3 reflected = world + sunLight * lit * shine;
       #ifdef GLASS
-      alpha = mix(gloss.z, 1.0, fresnel);
+      // What is behind remains, less the reflected part; broken faces are less clear.
+      return vec4(mix(0.3 * light, reflected, max(fresnel, 0.3)), mix(gloss.z, 1.0, fresnel));
+      #else
+      vec3 mirror = mix(mix(vec3(0.04), min(1.5 * albedo, vec3(1.0)), gloss.y), vec3(1.0), fresnel);
+      return vec4(light + mirror * reflected * (1.0 - 0.4 * gloss.x), 1.0);
       #endif
-      #elif !defined(TEXTURED)
-      vec2 noise = texture2D(image, place).rg - 0.5;
+    }
+    #endif
+    void main() {
+      float lit = sunlit(shadowAt);
+      #ifdef MATT
+      float noise = texture2D(image, place).r - 0.5;
       #ifdef FINE
-      noise.y += 0.8 * (texture2D(image, place * 0.12).g - 0.5);
+      noise += 0.8 * (texture2D(image, place * 0.13).g - 0.5);
       #endif
-      light *= 1.0 + contrast * (noise.x + 0.6 * noise.y);
+      gl_FragColor = vec4(mix(shady, sunny, lit) * (1.0 + 0.2 * noise), 1.0);
+      #else
+      vec4 light = vec4(sunny * lit + shady, 1.0);
+      #ifdef TEXTURED
+      vec3 texel = texture2D(image, place).rgb;
+      light.rgb *= texel * (texel * (texel * 0.305306011 + 0.682171111) + 0.012522878);
       #endif
-      gl_FragColor = vec4(shown(mix(horizon(), light, clear)), alpha);
+      #ifdef SHINY
+      light = shiny(light.rgb, lit);
+      #endif
+      gl_FragColor = vec4(shown(mix(horizon(), light.rgb, clear)), light.a);
+      #endif
     }`;
 
   const groundVertex = `
@@ -174,13 +188,14 @@ const shaders = (() => {
   const markFragment = `
     varying float up;
     void main() {
-      gl_FragColor = vec4(mix(vec3(1.0, 0.45, 0.1), vec3(1.0, 0.8, 0.5), 0.5 + 0.5 * up), 0.6);
+      gl_FragColor = vec4(mix(vec3(0.1, 0.5, 0.75), vec3(0.5, 0.9, 1.0), 0.5 + 0.5 * up), 0.75);
     }`;
 
   return {bodyVertex, bodyFragment, groundVertex, groundFragment, skyVertex, skyFragment,
           depthVertex, depthFragment, markVertex, markFragment};
 })();
 
+const kGrains = 0.45;         // periods of the grain per metre
 const kMaxVertices = 20000;  // of a batch: few enough to upload those that changed, one draw call each
 
 // Triangles that are drawn in one call. An entry is a mesh on a node: `part` of the file, `node` that
@@ -276,8 +291,8 @@ class Batch {
         // The grain is projected along the axis to which the normal is closest.
         const a = Math.abs(n[0]), b = Math.abs(n[1]), c = Math.abs(n[2]);
         const isUp = b > Math.max(a, c);
-        uvs[2 * vertex] = 1.7 * (isUp || a <= 1.01 * c ? at[0] + rest[0] : at[2] + rest[2]);
-        uvs[2 * vertex + 1] = 1.7 * (isUp ? at[2] + rest[2] : at[1] + rest[1]);
+        uvs[2 * vertex] = kGrains * (isUp || a <= 1.01 * c ? at[0] + rest[0] : at[2] + rest[2]);
+        uvs[2 * vertex + 1] = kGrains * (isUp ? at[2] + rest[2] : at[1] + rest[1]);
       }
     }
     if (part.uvs && this.kind.texture >= 0) uvs.set(part.uvs, 2 * entry.firstVertex);
@@ -404,6 +419,7 @@ const kQualities = [
   {shadowTexels: 2048, shadowEvery: 1, scale: 1.5},
   {shadowTexels: 2048, shadowEvery: 1, scale: 2},
 ];
+const kBestQuality = kQualities.length - 1;
 const kLeastTexels = 2;  // of the shadow map: radius of the smallest meshes that have a shadow
 
 class Stage {
@@ -418,7 +434,7 @@ class Stage {
     this.renderer.autoClear = false;
     this.gl = context;
     this.culls = Stage.isSoftware();
-    this.quality = Stage.isSoftware() ? 2 : 4;
+    this.quality = Stage.isSoftware() ? 2 : kBestQuality;
     this.scene = new THREE.Scene();
     this.casters = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.05, 2000);
@@ -494,8 +510,10 @@ class Stage {
   findLooks() {
     return [Stage.plain, ...this.file.materials].map(material => {
       const roots = material.color.slice(0, 3).map(part => 255 * Math.sqrt(Math.min(1, Math.max(0, part))));
-      return {tint: [...roots, 255 * material.opacity],
-              finish: [255 * material.roughness, 255 * material.metallic, material.roughness < 0.3 ? 0 : 100, 0]};
+      const isInside = material.name.endsWith(' inside');
+      const opacity = material.isGlass ? (isInside ? 0.35 : 0.06) : 1;
+      return {tint: [...roots, 255 * opacity],
+              finish: [255 * material.roughness, 255 * material.metallic, 0, 0]};
     });
   }
 
@@ -554,12 +572,12 @@ class Stage {
 
   // Returns a texture of smooth noise in two scales, which repeats.
   static makeGrain() {
-    const size = 128, data = new Uint8Array(4 * size * size);
+    const size = 256, data = new Uint8Array(4 * size * size);
     let state = 1;
     const random = () => (state = (state * 1664525 + 1013904223) >>> 0) / 4294967296;
     const sum = channel => {
       const total = new Float32Array(size * size);
-      for (let cells = channel ? 4 : 16, weight = 0.5; cells <= size; cells *= 2, weight *= 0.6) {
+      for (let cells = channel ? 4 : 12, weight = channel ? 0.5 : 0.3; cells <= size; cells *= 2, weight *= channel ? 0.6 : 0.9) {
         const grid = Float32Array.from({length: cells * cells}, random);
         for (let i = 0; i < size * size; ++i) {
           const x = (i % size) * cells / size, y = Math.floor(i / size) * cells / size;
@@ -597,6 +615,7 @@ class Stage {
                   side: isGlass ? THREE.DoubleSide : THREE.FrontSide};
     if (isGlass) more.defines.GLASS = '';
     if (isShiny) more.defines.SHINY = '';
+    if (!isShiny && texture < 0) more.defines.MATT = '';
     if (texture >= 0) {
       more.defines.TEXTURED = '';
       more.uniforms = {...this.uniforms, image: {value: this.loadTexture(texture)}};
@@ -680,6 +699,12 @@ class Stage {
     this.shadowRadius = radius;
   }
 
+  setQuality(quality) {
+    if (quality === this.quality) return;
+    this.quality = quality;
+    this.updateTargets();
+  }
+
   // Makes the shadow map that the quality asks for.
   updateTargets() {
     const {shadowTexels, scale} = kQualities[this.quality];
@@ -704,12 +729,14 @@ class Stage {
   resize() {
     const {clientWidth: width, clientHeight: height} = this.canvas;
     if (!width || !height) return;
-    this.camera.aspect = width / height;
-    // On upright screens, as much of the width is visible as on a square one.
-    const fov = this.fov || 0.8;
-    const vertical = 2 * Math.atan(Math.tan(fov / 2) * Math.max(1, 1.25 / this.camera.aspect));
-    this.camera.fov = vertical * 180 / Math.PI;
-    this.camera.updateProjectionMatrix();
+    const {camera, panelHeight = 0} = this, free = Math.max(height - panelHeight, 0.5 * height);
+    // The free part of the page has the view of the scene's camera. On upright screens, as much of the
+    // width is visible as on a square one.
+    const tall = Math.tan((this.fov || 0.8) / 2) * Math.max(1, 1.25 * free / width);
+    camera.aspect = width / height;
+    camera.fov = 2 * Math.atan(tall * height / free) * 180 / Math.PI;
+    camera.setViewOffset(width, height, 0, 0.5 * (height - free), width, height);
+    camera.updateProjectionMatrix();
     this.updateTargets();
   }
 
@@ -732,12 +759,12 @@ class Stage {
     }
   }
 
-  // Draws if anything changed. Returns true if so.
-  draw() {
+  // Draws if anything changed. Returns true if so. `isPlaying`: shadows may be of an earlier frame.
+  draw(isPlaying = false) {
     if (!this.isDirty) return false;
     const {renderer, camera} = this;
     camera.updateMatrixWorld();
-    if (this.shadowTarget && this.shadowsDirty && ++this.drawn % kQualities[this.quality].shadowEvery === 0) {
+    if (this.shadowTarget && this.shadowsDirty && (!isPlaying || ++this.drawn % kQualities[this.quality].shadowEvery === 0)) {
       this.cullCasters();
       renderer.setRenderTarget(this.shadowTarget);
       renderer.clear();
