@@ -338,6 +338,22 @@ TEST(Renderer, DustThatHasRisenIsWiderAndThinner) {
   EXPECT_GT(high.pixels, 1.15 * low.pixels);
 }
 
+// The shadow map would be coarser if it covered them.
+TEST(Renderer, CastersWhoseShadowsAreOutOfViewDoNotChangeThePicture) {
+  const auto with_block_at = [](double x_m) {
+    SyntheticFrame s;
+    s.add_box({-1, 0, -1}, {1, 2, 1}, Stuff::kConcrete);
+    s.add_box({x_m - 0.5, 0, -0.5}, {x_m + 0.5, 1, 0.5}, Stuff::kConcrete);
+    s.frame.view.eye_W = Vec3(0, 3, 10);
+    s.frame.view.target_W = Vec3(0, 1, 0);
+    s.frame.view.to_sun_W = Vec3(0.2, 1, 0.1);
+    return renderer().draw(s.frame);
+  };
+  const Image in_view = with_block_at(3);
+  EXPECT_EQ(with_block_at(12), with_block_at(20)) << "both are out of view, within the map's reach";
+  EXPECT_NE(with_block_at(12), in_view);
+}
+
 // Distant shadow casters do not count for the size of the shadow map, but are drawn into it.
 TEST(Renderer, AShadowAtTheBorderOfTheMapIsNotExtendedBeyondIt) {
   SyntheticFrame s;
