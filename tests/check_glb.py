@@ -2,11 +2,12 @@
 """Compares a GLB of `sunder export` with the poses and shapes of the run, and prints the largest
 differences. Shares no code with the program: reads the file with json, struct and numpy alone.
 
-Usage: check_glb.py X.glb POSES [BOXES] [--metres M] [--degrees D]
+Usage: check_glb.py X.glb POSES [BOXES [CHIPS]] [--metres M] [--degrees D]
 
 POSES has rows of 12 numbers of 64 bits: frame, key, centre of mass in the world (3), rotation x, y, z,
 w, centre of mass in the rest frame of the body (3). BOXES has rows of 9: frame, key, number of
 vertices drawn on the body, least (3) and greatest (3) coordinates of these in the world.
+CHIPS has rows of 8: frame, number of pieces of debris, least and greatest coordinates of their centres.
 Exit code 1 if a pose differs by more than M or D, or if a body is visible in other frames. Read first:
 main().
 """
@@ -182,11 +183,33 @@ def compare_boxes(document, motion, rows, fps):
     return farthest, messages
 
 
+def compare_chips(document, motion, rows, fps):
+    """Returns messages about frames whose debris is not that of the run."""
+    messages = []
+    for frame, count, *box in rows:
+        time = float(np.float32(frame / fps))
+        points = [np.zeros((0, 3))]
+        for number, node in enumerate(document.json["nodes"]):
+            if not node.get("name", "").startswith("debris_") or not motion.is_visible(number, time):
+                continue
+            for child in node["children"]:
+                described = document.json["nodes"][child]
+                attributes = described["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]
+                points.append(document.array(attributes["TRANSLATION"]) * described["scale"])
+        points = np.concatenate(points)
+        if len(points) != count:
+            messages.append(f"frame {int(frame)} has {len(points)} pieces of debris, not {int(count)}")
+        elif count and np.abs(np.concatenate([points.min(0), points.max(0)]) - box).max() > 1e-4:
+            messages.append(f"the debris of frame {int(frame)} is elsewhere")
+    return messages
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("glb")
     parser.add_argument("poses")
     parser.add_argument("boxes", nargs="?")
+    parser.add_argument("chips", nargs="?")
     parser.add_argument("--metres", type=float, default=1e-3)
     parser.add_argument("--degrees", type=float, default=0.1)
     given = parser.parse_args()
@@ -204,6 +227,10 @@ def main():
         messages += more
         if difference > 10 * given.metres:
             messages.append("a shape is not where it is in the run")
+    if given.chips:
+        chips = np.fromfile(given.chips, np.float64).reshape(-1, 8)
+        print(f"{int(chips[:, 1].sum())} pieces of debris in {len(chips)} frames")
+        messages += compare_chips(document, motion, chips, fps)
     for message in messages[:20]:
         print(message)
     return 1 if messages or farthest > given.metres or widest > given.degrees else 0

@@ -148,6 +148,8 @@ void add_export(CLI::App& program, Command& chosen) {
                    "glTF: angle by which a body may be turned in any frame; 0.1 by default")
       ->type_name("DEGREES")
       ->check(from_to(0.01, 45.0));
+  command.app->add_flag("--particles", options.particles,
+                        "glTF: write debris as well, by EXT_mesh_gpu_instancing");
   command.app->add_option("--format", options.format, "Mesh files in DIR/: obj, by default, or ply")
       ->type_name("NAME");
   command.app->add_option("--fps", options.frames_per_s, "Frames per second; a divisor of 60")

@@ -76,6 +76,7 @@ struct ExportOptions : CommonOptions {
   std::optional<double> tolerance_m;    ///< Largest error of an interpolated position.
   std::optional<double> tolerance_deg;  ///< Largest error of an interpolated rotation.
   std::string format;                   ///< "obj" or "ply" for a folder; empty: obj.
+  bool particles = false;               ///< Write debris.
   int frames_per_s = 60;
 };
 

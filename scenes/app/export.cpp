@@ -70,6 +70,8 @@ void check_output(const ExportOptions& options) {
   if (!is_glb(options) && (options.tolerance_m || options.tolerance_deg)) {
     throw InputError(name + ": mesh files have every frame; remove --tolerance and --angle");
   }
+  if (!is_glb(options) && options.particles)
+    throw InputError(name + ": mesh files have no debris; remove --particles");
   if (60 % options.frames_per_s != 0) {
     throw InputError("--fps " + std::to_string(options.frames_per_s) +
                      ": expected a divisor of 60, such as 30, 20 or 15");
@@ -105,10 +107,10 @@ class GltfExporter final : public Exporter {
   Figures figures() const override {
     const GltfSceneFigures& all = writer_.figures();
     const auto number = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
-    return {{"/frames", number(all.frames)},   {"/bodies", number(all.bodies)},
-            {"/meshes", number(all.meshes)},   {"/breaks", number(all.breaks)},
-            {"/samples", number(all.samples)}, {"/keys", number(all.keys)},
-            {"/bytes", number(all.bytes)}};
+    return {{"/frames", number(all.frames)}, {"/bodies", number(all.bodies)},
+            {"/meshes", number(all.meshes)}, {"/breaks", number(all.breaks)},
+            {"/chips", number(all.chips)},   {"/samples", number(all.samples)},
+            {"/keys", number(all.keys)},     {"/bytes", number(all.bytes)}};
   }
 
  private:
@@ -118,6 +120,7 @@ class GltfExporter final : public Exporter {
     made.tolerance_m = options.tolerance_m.value_or(made.tolerance_m);
     made.tolerance_deg = options.tolerance_deg.value_or(made.tolerance_deg);
     made.frames_per_s = options.frames_per_s;
+    made.particles = options.particles;
     return made;
   }
   GltfSceneWriter writer_;
@@ -143,6 +146,24 @@ class SequenceExporter final : public Exporter {
   MeshSequenceWriter writer_;
 };
 
+/// Counts how often the frames reached limits.
+class LimitsCounter final : public FrameSink {
+ public:
+  void take(const FramePtr& frame) override {
+    limits_ += frame->report.limits;
+    hit_ += frame->report.limits_hit;
+  }
+  /// Prints a warning if any limit was reached.
+  void finish() override {
+    if (const std::string warning = limits_warning(limits_, hit_); !warning.empty())
+      std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  }
+
+ private:
+  LimitsHit limits_;
+  std::uint32_t hit_ = 0;
+};
+
 std::unique_ptr<Exporter> make_exporter(const ExportOptions& options, const std::string& name) {
   if (is_glb(options)) return std::make_unique<GltfExporter>(options, name);
   return std::make_unique<SequenceExporter>(options);
@@ -158,7 +179,9 @@ WrittenRun write_run(const ExportOptions& options, const std::string& command) {
   FramesUntil frames(*input.source, input.last);
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
-  FrameSink* const sinks[] = {exporter.get(), &progress};
+  LimitsCounter limits;
+  std::vector<FrameSink*> sinks = {exporter.get(), &progress};
+  if (!input.recording) sinks.push_back(&limits);  // recordings do not have the counts
   const int stopped = pump_until_stopped(ahead ? static_cast<FrameSource&>(*ahead) : frames, sinks);
   ahead.reset();
   return {exporter->frames(),

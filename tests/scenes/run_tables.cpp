@@ -25,6 +25,11 @@ void RunTables::take(const FramePtr& frame) {
                    q.w(), body.com_R.x(), body.com_R.y(), body.com_R.z()});
   }
   if (std::ranges::find(box_frames_, frame->index) == box_frames_.end()) return;
+  Box debris;
+  for (const FrameDebris& chip : frame->debris) debris.extend(chip.position_W.cast<double>());
+  chips_.insert(chips_.end(),
+                {index, static_cast<double>(frame->debris.size()), debris.min.x(), debris.min.y(),
+                 debris.min.z(), debris.max.x(), debris.max.y(), debris.max.z()});
   std::vector<Box> boxes(frame->bodies.size());
   std::vector<std::size_t> vertices(frame->bodies.size());
   for (const Instance& instance : frame->instances) {
@@ -44,10 +49,11 @@ void RunTables::take(const FramePtr& frame) {
   }
 }
 
-void RunTables::write(const std::filesystem::path& poses,
-                      const std::filesystem::path& boxes) const {
+void RunTables::write(const std::filesystem::path& poses, const std::filesystem::path& boxes,
+                      const std::filesystem::path& chips) const {
   write_table(poses, poses_);
   write_table(boxes, boxes_);
+  write_table(chips, chips_);
 }
 
 }  // namespace sunder::tests

@@ -18,13 +18,14 @@ class RunTables final : public FrameSink {
   /// `box_frames`: frames whose boxes are written.
   explicit RunTables(std::vector<std::uint64_t> box_frames) : box_frames_(std::move(box_frames)) {}
   void take(const FramePtr& frame) override;
-  /// Writes both tables.
-  void write(const std::filesystem::path& poses, const std::filesystem::path& boxes) const;
+  /// Writes the tables.
+  void write(const std::filesystem::path& poses, const std::filesystem::path& boxes,
+             const std::filesystem::path& chips) const;
   std::size_t bodies() const { return bodies_.size(); }
 
  private:
   std::vector<std::uint64_t> box_frames_;
-  std::vector<double> poses_, boxes_;
+  std::vector<double> poses_, boxes_, chips_;
   std::map<std::uint64_t, int> bodies_;  ///< Number of frames of each key.
 };
 

@@ -73,14 +73,15 @@ class SceneExport : public ::testing::Test {
 std::string compare(const std::string& glb, const std::string& take, const std::string& options) {
   const Folder folder;
   RecordingReader reader(take);
-  RunTables tables({0, 20, 45, 90});
+  RunTables tables({0, 20, 44, 88});  // multiples of 4, when debris moves
   while (const FramePtr frame = reader.next()) tables.take(frame);
   EXPECT_GT(tables.bodies(), 20u);
-  tables.write(folder / "poses", folder / "boxes");
+  tables.write(folder / "poses", folder / "boxes", folder / "chips");
   const std::string said = folder / "said.txt";
-  const std::string command =
-      std::string(SUNDER_NUMPY_PYTHON) + " " SUNDER_ROOT "/tests/check_glb.py " + glb + " " +
-      (folder / "poses") + " " + (folder / "boxes") + " " + options + " > " + said + " 2>&1";
+  const std::string command = std::string(SUNDER_NUMPY_PYTHON) +
+                              " " SUNDER_ROOT "/tests/check_glb.py " + glb + " " +
+                              (folder / "poses") + " " + (folder / "boxes") + " " +
+                              (folder / "chips") + " " + options + " > " + said + " 2>&1";
   const int code = std::system(command.c_str());
   EXPECT_EQ(code, 0) << bytes_of(said);
   return bytes_of(said);
@@ -93,12 +94,14 @@ TEST_F(SceneExport, HasThePosesOfTheRunForAnIndependentReader) {
   }
   const std::string glb = folder_ / "wall.glb";
   for (const auto& [metres, degrees] : {std::pair{"0.001", "0.1"}, {"0.02", "2"}}) {
-    const Outcome outcome = sunder("export " + recording() + " -o " + glb +
-                                   " --quiet --tolerance " + metres + " --angle " + degrees);
+    const Outcome outcome =
+        sunder("export " + recording() + " -o " + glb + " --quiet --particles --tolerance " +
+               metres + " --angle " + degrees);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string said =
         compare(glb, recording(), std::string("--metres ") + metres + " --degrees " + degrees);
     EXPECT_NE(said.find("poses"), std::string::npos) << said;
+    EXPECT_EQ(said.find("\n0 pieces of debris"), std::string::npos) << said;
   }
 }
 
@@ -139,6 +142,30 @@ TEST_F(SceneExport, OfATruncatedRecordingHasTheWholeFramesAndSaysHowMany) {
   EXPECT_GT(frames, 10);
   EXPECT_LT(frames, 91);
   EXPECT_TRUE(bytes_of(folder_ / "cut.glb").starts_with("glTF"));
+}
+
+TEST_F(SceneExport, HasTheImagesAndTextureCoordinatesOfMeshFiles) {
+  std::string png("\x89PNG\r\n\x1a\n");
+  png += "not decoded by the export";
+  std::ofstream(folder_ / "stone.png", std::ios::binary) << png;
+  std::ofstream(folder_ / "t.mtl") << "newmtl m\nmap_Kd stone.png\n";
+  std::ofstream(folder_ / "t.obj")
+      << "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+         "vt 0 0\nvt 1 0\nvt 0 0.25\nusemtl m\n"
+         "f 1/1 3/3 2/2\nf 1/1 2/2 4/3\nf 1/1 4/3 3/2\nf 2/1 3/2 4/3\n";
+  std::ofstream(folder_ / "t.toml") << "[scene]\ndescription = \"t\"\nduration_s = 0.1\n"
+                                       "[[body]]\nname = \"stone\"\nmesh = \"t.obj\"\n";
+  const Outcome glb = sunder("export " + (folder_ / "t.toml") + " -o " + (folder_ / "t.glb"));
+  ASSERT_EQ(glb.exit_code, 0) << glb.err;
+  const std::string bytes = bytes_of(folder_ / "t.glb");
+  EXPECT_NE(bytes.find(png), std::string::npos);
+  EXPECT_NE(bytes.find("TEXCOORD_0"), std::string::npos);
+  EXPECT_NE(bytes.find("baseColorTexture"), std::string::npos);
+  const Outcome obj = sunder("export " + (folder_ / "t.toml") + " -o " + (folder_ / "t/"));
+  ASSERT_EQ(obj.exit_code, 0) << obj.err;
+  EXPECT_EQ(bytes_of(folder_ / "t/image_0.png"), png);
+  EXPECT_NE(bytes_of(folder_ / "t/materials.mtl").find("map_Kd image_0.png"), std::string::npos);
+  EXPECT_NE(bytes_of(folder_ / "t/frame_00000.obj").find("\nvt 0 0.25\n"), std::string::npos);
 }
 
 /// Bounds and sizes of what a frame draws.
@@ -249,6 +276,7 @@ TEST_F(SceneExport, RefusesWrongInput) {
   expect_refused(run + "run.take/", 2, "is a file");
   expect_refused(run + "x/ --format stl", 2, "expected obj or ply");
   expect_refused(run + "x/ --tolerance 0.1", 2, "remove --tolerance");
+  expect_refused(run + "x/ --particles", 2, "have no debris");
   expect_refused(run + "x.glb --format obj", 2, "is for a folder");
   expect_refused(run + "d.glb", 2, "is a folder");
   expect_refused("noise.take -o x.glb", 2, "not a recording");

@@ -67,6 +67,21 @@ std::vector<BodyTracks::Drawn> BodyTracks::drawn_on_bodies(const Frame& frame) c
   return drawn;
 }
 
+void BodyTracks::skip(const Frame& frame) {
+  for (const FrameBody& body : frame.bodies) {
+    if (body.previous_key != body.key) parents_.emplace(body.key, body.previous_key);
+  }
+}
+
+/// Returns the key of the body of the last frame that a new body was part of; its own if there is
+/// none.
+std::uint64_t BodyTracks::parent_of(const FrameBody& body) const {
+  std::uint64_t key = body.previous_key;
+  for (auto at = parents_.find(key); at != parents_.end(); at = parents_.find(key))
+    key = at->second;
+  return key;
+}
+
 /// Makes `active_` one for each body of the frame; ends those of bodies that are gone.
 void BodyTracks::match(std::uint32_t number, const Frame& frame) {
   std::vector<std::unique_ptr<Active>> now;
@@ -85,7 +100,7 @@ void BodyTracks::match(std::uint32_t number, const Frame& frame) {
     } else {
       now.push_back(
           std::make_unique<Active>(Active{BodyTrack{body.key,
-                                                    number == 0 ? body.key : body.previous_key,
+                                                    number == 0 ? body.key : parent_of(body),
                                                     body.name,
                                                     body.mass_kg,
                                                     number,
@@ -100,6 +115,7 @@ void BodyTracks::match(std::uint32_t number, const Frame& frame) {
   }
   end_until(~std::uint64_t{0});
   active_ = std::move(now);
+  parents_.clear();
 }
 
 void BodyTracks::add(std::uint32_t number, const Frame& frame) {

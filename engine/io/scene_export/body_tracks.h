@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,8 @@ class BodyTracks {
   BodyTracks(const PositionKeys& positions, const RotationKeys& rotations,
              std::function<void(const BodyTrack&)> take);
   ~BodyTracks();
+  /// Records where the new bodies of a frame come from that is not added.
+  void skip(const Frame& frame);
   /// Adds a frame; numbers count from 0 without gaps.
   void add(std::uint32_t number, const Frame& frame);
   /// Ends the tracks of the bodies that are left.
@@ -55,12 +58,15 @@ class BodyTracks {
 
   std::vector<Drawn> drawn_on_bodies(const Frame& frame) const;
   void match(std::uint32_t number, const Frame& frame);
+  std::uint64_t parent_of(const FrameBody& body) const;
   void end(Active& active);
 
   PositionKeys positions_;
   RotationKeys rotations_;
   std::function<void(const BodyTrack&)> take_;
   std::vector<std::unique_ptr<Active>> active_;  ///< One for each body of the last frame.
+  /// Parents of the bodies that were new in skipped frames, since the last frame that was added.
+  std::unordered_map<std::uint64_t, std::uint64_t> parents_;
 };
 
 }  // namespace sunder

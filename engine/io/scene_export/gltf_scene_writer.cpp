@@ -14,6 +14,7 @@
 #include "engine/io/bytes.h"
 #include "engine/io/mesh/gltf_material_writer.h"
 #include "engine/io/scene_export/body_tracks.h"
+#include "engine/io/scene_export/chip_nodes.h"
 #include "engine/io/scene_export/gltf_buffers.h"
 #include "engine/io/scene_export/run_materials.h"
 #include "engine/io/scene_export/side_data.h"
@@ -108,6 +109,8 @@ class GltfSceneWriter::Scene {
   // The document.
   void describe_camera_and_sun();
   void describe_ground();
+  std::size_t describe_chip_mesh(MaterialIndex material);
+  void describe_chips();
   void describe_bodies();
   void describe_body(const BodyRecord& body, const std::string& name);
   std::string name_of_node(const BodyRecord& body);
@@ -139,9 +142,11 @@ class GltfSceneWriter::Scene {
   std::vector<std::int32_t> record_of_mesh_;  ///< By MeshIndex; -1: none yet.
   std::vector<MeshRecord> meshes_;
   std::vector<BodyRecord> bodies_;
+  std::vector<ChipFrame> chips_;
 
   std::vector<Model::Material> materials_;   ///< That the document may use, materials_of_run().
   std::vector<std::size_t> used_materials_;  ///< Indices in `materials_`, in the document's order.
+  std::optional<GltfBuffers::MeshAccessors> chip_;
   GltfMaterialWriter material_writer_;
   JsonList nodes_, mesh_list_, channels_, samplers_;
   std::vector<std::size_t> roots_;  ///< Nodes of the scene.
@@ -163,7 +168,8 @@ GltfSceneWriter::Scene::Scene(const std::filesystem::path& path, const GltfScene
 
 void GltfSceneWriter::Scene::take(const FramePtr& frame) {
   side_data_.add_breaks(*frame);
-  if (frame_++ % static_cast<std::uint64_t>(60 / options_.frames_per_s) != 0) return;
+  if (frame_++ % static_cast<std::uint64_t>(60 / options_.frames_per_s) != 0)
+    return tracks_.skip(*frame);
   if (!first_) {
     auto first = std::make_shared<Frame>();
     first->view = frame->view;
@@ -179,6 +185,11 @@ void GltfSceneWriter::Scene::take(const FramePtr& frame) {
   for (const FrameBody& body : frame->bodies) places_W_.extend(body.X_WB.position);
   figures.samples += frame->bodies.size();
   tracks_.add(next_, *frame);
+  const int chip_step = std::max(1, options_.frames_per_s / kChipFramesPerSecond);
+  if (options_.particles && next_ % static_cast<std::uint32_t>(chip_step) == 0) {
+    figures.chips += frame->debris.size();
+    chips_.push_back(add_chips(next_, frame->debris, buffers_));
+  }
   ++next_;
 }
 
@@ -312,6 +323,45 @@ void GltfSceneWriter::Scene::describe_ground() {
              << Vec3f(Vec3f::Constant(static_cast<float>(half_m))) << "]}";
 }
 
+/// Adds a mesh for the debris of a material.
+std::size_t GltfSceneWriter::Scene::describe_chip_mesh(MaterialIndex material) {
+  if (!chip_) chip_ = buffers_.add_mesh(quantize(make_chip(), {}));
+  const std::size_t number = mesh_list_.begin();
+  mesh_list_.out << "{\"name\":\"debris\",\"primitives\":[{\"attributes\":{\"POSITION\":"
+                 << chip_->positions << ",\"NORMAL\":" << chip_->normals
+                 << "},\"indices\":" << chip_->indices[0] << ",\"material\":"
+                 << used_material(material_of_look(Mesh::kInterior, material, *first_)) << "}]}";
+  return number;
+}
+
+/// Adds a node for the debris of each material in each frame, below one that shows it in its time.
+void GltfSceneWriter::Scene::describe_chips() {
+  std::map<MaterialIndex, std::size_t> meshes;
+  for (std::size_t c = 0; c < chips_.size(); ++c) {
+    const ChipFrame& frame = chips_[c];
+    if (frame.groups.empty()) continue;
+    const std::size_t group = nodes_.begin();
+    roots_.push_back(group);
+    nodes_.out << "{\"name\":\"debris_" << frame.begin << "\"";
+    if (frame.begin > 0) nodes_.out << ",\"scale\":[0,0,0]";
+    nodes_.out << ",\"children\":[";
+    for (std::size_t g = 0; g < frame.groups.size(); ++g)
+      nodes_.out << (g > 0 ? "," : "") << group + 1 + g;
+    nodes_.out << "]}";
+    animate_visibility(group, frame.begin, c + 1 < chips_.size() ? chips_[c + 1].begin : kUntilEnd);
+    for (const ChipGroup& chips : frame.groups) {
+      const auto [mesh, is_new] = meshes.try_emplace(chips.material);
+      if (is_new) mesh->second = describe_chip_mesh(chips.material);
+      nodes_.begin();
+      nodes_.out << "{\"mesh\":" << mesh->second << ",\"scale\":["
+                 << Vec3f(Vec3f::Constant(kChipNodeScale))
+                 << "],\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{"
+                 << "\"TRANSLATION\":" << chips.translations << ",\"ROTATION\":" << chips.rotations
+                 << ",\"SCALE\":" << chips.scales << "}}}}";
+    }
+  }
+}
+
 /// Returns the number in the document of an element of materials_of_run(), and adds it if it is
 /// new.
 std::size_t GltfSceneWriter::Scene::used_material(std::size_t index) {
@@ -334,7 +384,8 @@ std::size_t GltfSceneWriter::Scene::mesh_number(const InstanceSpan& span) {
   for (std::size_t part = 0; part < mesh.looks.size(); ++part) {
     out << (part > 0 ? "," : "") << "{\"attributes\":{\"POSITION\":" << mesh.accessors.positions
         << ",\"NORMAL\":" << mesh.accessors.normals;
-    if (mesh.accessors.uvs) out << ",\"TEXCOORD_0\":" << *mesh.accessors.uvs;
+    const bool has_image = mesh.looks[part] >= Mesh::kFirstAppearance;
+    if (has_image && mesh.accessors.uvs) out << ",\"TEXCOORD_0\":" << *mesh.accessors.uvs;
     out << "},\"indices\":" << mesh.accessors.indices[part]
         << ",\"material\":" << used_material(material_of_look(mesh.looks[part], material, *first_))
         << "}";
@@ -473,6 +524,7 @@ std::string GltfSceneWriter::Scene::document() {
   describe_camera_and_sun();
   describe_ground();
   describe_bodies();
+  describe_chips();
   const json materials = describe_materials();
   buffers_.finish(next_);
   figures.frames = next_;
@@ -484,7 +536,8 @@ std::string GltfSceneWriter::Scene::document() {
   const float intensity = std::max(sun.maxCoeff(), 1e-6f);
   TextWriter out(",");
   out << "{\"asset\":{\"version\":\"2.0\",\"generator\":\"sunder\",\"extras\":" << extras()
-      << "},\n\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_mesh_quantization\"],"
+      << "},\n\"extensionsUsed\":[" << (chip_ ? "\"EXT_mesh_gpu_instancing\"," : "")
+      << "\"KHR_lights_punctual\",\"KHR_mesh_quantization\"],"
       << "\"extensionsRequired\":[\"KHR_mesh_quantization\"],\n"
       << "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"directional\","
       << "\"name\":\"sun\",\"color\":[" << Vec3f((sun / intensity).cwiseMin(1.f))

@@ -9,7 +9,8 @@ std::vector<Model::Material> materials_of_run(const Frame& frame) {
   for (const Material& material : *frame.materials) {
     const auto add = [&](const std::string& name, const Look& look) {
       Appearance appearance{look.color, nullptr};
-      if (look.texture == Texture::kMetal) appearance.gloss = MetallicRoughness{0.5f, 1, nullptr};
+      if (look.texture == Texture::kMetal)
+        appearance.gloss = MetallicRoughness{0.5f, 0.5f, nullptr};
       if (look.texture == Texture::kGlass) appearance.gloss = MetallicRoughness{0.05f, 0, nullptr};
       made.push_back({name, appearance});
     };

@@ -523,7 +523,9 @@ class Stage {
     const batches = [], open = new Map(), origin = [0, 0, 0];
     this.ground = null;
     const bornAt = node => this.bodies[node] < 0 ? 0 : file.nodes[this.bodies[node]].extras.born_s || 0;
-    const order = file.nodes.map((_, node) => node).filter(node => file.nodes[node].mesh !== undefined)
+    // Instances (debris) are left out: they are nodes of their own every 1/15 s.
+    const isDrawn = ({mesh, extensions = {}}) => mesh !== undefined && !extensions.EXT_mesh_gpu_instancing;
+    const order = file.nodes.map((_, node) => node).filter(node => isDrawn(file.nodes[node]))
                       .sort((a, b) => bornAt(a) - bornAt(b) || a - b);
     for (const node of order) {
       if (file.nodes[node].name === 'ground' && this.bodies[node] < 0) {
