@@ -19,6 +19,7 @@ install_optional doxygen
 set_up
 install_optional clang-format-14
 install_optional libbullet-dev libode-dev
+install_optional libjs-three chromium
 install_optional parallel
 install_optional python3-distributed
 install_optional qemu-user-static

@@ -280,6 +280,12 @@ void Renderer::Impl::draw_glass() {
   gl.BlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ZERO, GL_SRC1_ALPHA);
   gl.DepthMask(GL_FALSE);
   pieces.draw(Pieces::Group::kGlass);
+  if (!gathers() && !view_mode.edges()) {
+    begin_pass(light, programs.glass_lines);
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    pieces.draw(Pieces::Group::kGlass);
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  }
   gl.DepthMask(GL_TRUE);
   gl.Disable(GL_BLEND);
   gl.CullFace(GL_BACK);

@@ -7,7 +7,7 @@ Usage: check_docs.py ROOT PROGRAM. Takes about half a minute. Read first: main()
 Commands of the code blocks of README.md, docs/*.md and bench/README.md are run in a new folder
 (make_folder()). Long ones are shortened, as shorten() has it:
   simulate         runs 3 frames;
-  export           writes 3 frames of a scene;
+  export, view     write 3 frames of a scene; view is left out where three.js is not installed;
   render           draws 2 frames, or a sheet of 2, of 64x48 pixels unless the command has a size;
   bench            runs 2 frames of each scene once, without warm-up, and accepts states of one scene;
   trade            lists its runs (--list);
@@ -28,8 +28,8 @@ import tempfile
 from pathlib import Path
 
 MAX_README_LINES = 120
-COMMANDS = ("list", "check", "simulate", "render", "export", "bench", "trade", "fracture", "vacd",
-            "hull", "golden", "doctor")
+COMMANDS = ("list", "check", "simulate", "render", "export", "view", "bench", "trade", "fracture",
+            "vacd", "hull", "golden", "doctor")
 GOLDEN = "stack"  # the quickest to test
 
 # Sections of docs/cli.md, beside its own, that have options of a command.
@@ -48,6 +48,8 @@ SYNTAX = {
          "sunder render tests/golden/stack.frame -o x.webm"],
     "sunder export SCENE|X.take -o X.glb|DIR/":
         ["sunder export stack -o x.glb", "sunder export house.take -o meshes/"],
+    "sunder view SCENE|X.take|X.glb -o X.html":
+        ["sunder view stack -o x.html", "sunder view house.take -o x.html"],
     "sunder bench [SCENE...]": ["sunder bench", "sunder bench stack"],
     "sunder trade SCENE... -o DIR": ["sunder trade stack glass -o out/trade"],
     "sunder fracture MESH --pattern SPEC [--at X,Y,Z] [--radius R]":
@@ -76,7 +78,7 @@ JSON_COMMANDS = (
     "trade stack --frames 2 --seeds 1 -o out/trade",
     "fracture tetrahedron.obj --pattern voronoi:8", "vacd tetrahedron.obj --nodes 2",
     "hull box:1,1,1 --vertices 8", "render stack -o x.png --frames 0 --size 64x48",
-    "export stack -o x.glb --frames 3",
+    "export stack -o x.glb --frames 3", "view stack -o x.html --frames 3",
     "golden test " + GOLDEN, "doctor")
 
 # Paths in the JSON whose keys are names of stages, parts of work, features or keys of a scene.
@@ -219,6 +221,8 @@ def check_keys(root, program):
     names |= {"cpu_" + name for name in names if re.fullmatch(r"(p\d\d|max|mean)_ms", name)}
     messages = set()
     for line in JSON_COMMANDS:
+        if is_without_three(line.split()):
+            continue
         file = program.folder / "figures.json"
         file.unlink(missing_ok=True)
         done = program.run([*line.split(), "--json", file.name])
@@ -250,12 +254,17 @@ def with_value(arguments, option, value):
     return [*arguments[:at], value, *arguments[at + 1:]]
 
 
+def is_without_three(arguments):
+    """True for a command that needs three.js if that is not installed."""
+    return arguments[0] == "view" and not Path("/usr/share/javascript/three").exists()
+
+
 def shorten(arguments):
     """Returns a command that does the same in less time, see the head of this file."""
     command = arguments[0]
     if command == "simulate":
         return add(arguments, "--frames", "3")
-    if command == "export" and not arguments[1].endswith(".take"):
+    if command in ("export", "view") and not arguments[1].endswith((".take", ".glb")):
         return add(arguments, "--frames", "3")
     if command == "render":
         if "--frames" in arguments:
@@ -291,12 +300,15 @@ def make_folder(root, folder, program):
     for name in ("my.toml", "my_scene.toml"):
         (folder / name).write_text(scene.group(1) if scene else "", encoding="utf-8")
     program.run(shorten(["simulate", "house", "--take", "house.take"]))
+    program.run(shorten(["export", "house", "-o", "house.glb"]))
     program.run(shorten(["bench", "--json", "old.json"]))
 
 
 def check_command(root, program, line):
     """Runs a command of a page. Returns a message if it fails."""
     arguments = shorten(shlex.split(line, comments=True)[1:])
+    if is_without_three(arguments):
+        return None
     expanded = []
     for argument in arguments:
         files = sorted(glob.glob(argument, root_dir=program.folder)) if "*" in argument else []

@@ -23,8 +23,12 @@ Programs make_programs(const GlTable& gl, bool gathers, bool transparent) {
                           {common_glsl, shadow_glsl, "#define BLOCKS\n", pieces_frag});
   p.shiny = make_program(gl, "shiny", {common_glsl, bodies_glsl, pieces_vert},
                          {common_glsl, shadow_glsl, "#define SHINY\n", pieces_frag});
-  p.glass = make_program(gl, "glass", {common_glsl, bodies_glsl, pieces_vert},
-                         {common_glsl, shadow_glsl, glass_frag});
+  // Samples show thin faces by themselves.
+  const char* const thin = gathers ? "" : "#define THIN_EDGES\n";
+  p.glass = make_program(gl, "glass", {common_glsl, bodies_glsl, thin, pieces_vert},
+                         {common_glsl, shadow_glsl, thin, glass_frag});
+  p.glass_lines = make_program(gl, "glass_lines", {common_glsl, bodies_glsl, thin, pieces_vert},
+                               {common_glsl, shadow_glsl, thin, "#define LINES\n", glass_frag});
   p.ground = make_program(gl, "ground", {common_glsl, ground_vert},
                           {common_glsl, shadow_glsl, ground_frag});
   p.sky = make_program(gl, "sky", {common_glsl, screen_vert}, {common_glsl, sky_frag});

@@ -6,7 +6,8 @@
 namespace sunder::render {
 
 struct Programs {
-  GLuint shadow, zenith, matte, textured, blocks, shiny, glass, ground, sky, occlusion, blur;
+  GLuint shadow, zenith, matte, textured, blocks, shiny, glass, glass_lines, ground, sky, occlusion,
+      blur;
   GLuint composite, dusty;               ///< From light to image; with dust.
   GLuint gather, dusty_gather, develop;  ///< From light to a sum, from the sum to an image; or 0.
 };

@@ -1,6 +1,7 @@
 #include "render/passes/viewpoint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/trigonometry.h"
@@ -31,12 +32,43 @@ Mat3 frame_along(const Vec3& forward) {
   return rows;
 }
 
-/// Returns a box, in the frame of the sun, around the casters within `reach` of the view's target.
-Box caster_box(std::span<const Caster> casters, const Mat3& sun, const Vec3& target, double reach) {
+/// The visible part of space, and the shadows that reach it. Places are relative to the eye.
+class ShadowReach {
+ public:
+  /// `camera`: rows right, up and forward; `wide`, `tall`: half of the image at distance 1;
+  /// `to_light`: direction of the light; `ground`: height of the ground plane.
+  ShadowReach(const Mat3& camera, double wide, double tall, const Vec3& to_light, double ground)
+      : to_light_(to_light), ground_(ground) {
+    const Vec3 right = camera.row(0), up = camera.row(1), forward = camera.row(2);
+    sides_ = {(wide * forward - right).normalized(), (wide * forward + right).normalized(),
+              (tall * forward - up).normalized(), (tall * forward + up).normalized()};
+  }
+  /// True unless the sphere and its shadow down to the ground are beyond one side of the image.
+  bool is_seen(const Vec3& center, double radius) const {
+    constexpr double kLowLight = 0.05;  // height of a light below which all shadows count
+    if (to_light_.y() < kLowLight) return true;
+    const double along = std::max(0.0, center.y() + radius - ground_) / to_light_.y();
+    const Vec3 end = center - along * to_light_;
+    return std::ranges::all_of(sides_, [&](const Vec3& inward) {
+      return std::max(inward.dot(center), inward.dot(end)) > -radius;
+    });
+  }
+
+ private:
+  std::array<Vec3, 4> sides_;  ///< Inward normals of the sides of the view, through the eye.
+  Vec3 to_light_;
+  double ground_;
+};
+
+/// Returns a box, in the frame of the sun, around the casters within `reach` of the view's target
+/// whose shadows are visible.
+Box caster_box(std::span<const Caster> casters, const ShadowReach& shadows, const Mat3& sun,
+               const Vec3& target, double reach) {
   Box box;
   for (const Caster& caster : casters) {
     const Vec3 center = caster.center.cast<double>();
     if ((center - target).norm() > reach) continue;
+    if (!shadows.is_seen(center, double{caster.radius})) continue;
     const Vec3 radius = Vec3::Constant(static_cast<double>(caster.radius));
     const Vec3 at = sun * center;
     box.extend(Vec3(at - radius));
@@ -126,8 +158,9 @@ FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, i
   const Vec3 to_sun = view.to_sun_W.normalized();
   const auto shadow_matrix_along = [&](const Vec3& forward, double& side_m) {
     const Mat3 light = frame_along(forward);
-    return shadow_matrix(light, caster_box(casters, light, look, 2.5 * distance), view.eye_W,
-                         side_m);
+    const ShadowReach shadows(camera, wide, tall, -forward, view.ground_m - view.eye_W.y());
+    return shadow_matrix(light, caster_box(casters, shadows, light, look, 2.5 * distance),
+                         view.eye_W, side_m);
   };
   double shadow_m = 0;
   double zenith_m = 0;

@@ -43,8 +43,9 @@ struct Sample {
   double weight = 1;
 };
 
-/// Returns the uniforms of a frame. The shadow map covers the casters near the view's target; its
-/// size and place change in steps, so that shadows do not shimmer while the casters move.
+/// Returns the uniforms of a frame. The shadow map covers the casters near the view's target whose
+/// shadows are visible; its size and place change in steps, so that shadows do not shimmer while
+/// the casters move.
 FrameUniforms make_uniforms(const View& view, std::span<const Caster> casters, int width,
                             int height, const Sample& sample = {});
 

@@ -9,6 +9,12 @@ flat in vec3 up_rest;
 flat in vec3 eye_rest;
 flat in vec4 first_color;
 flat in vec3 finish;
+
+#ifdef THIN_EDGES
+flat in float thickness;
+const float kLineWeight = 0.25;  // about four lines lie on each other along a broken face
+#endif
+
 layout(location = 0, index = 0) out vec4 color;
 layout(location = 0, index = 1) out vec4 through;  // transmitted share of the background
 
@@ -18,6 +24,17 @@ void main() {
   if (dot(view, n) > 0.0) n = -n;
   float edge = finish.y;  // 1 on a broken face
   float facing = max(-dot(view, n), 0.0);
+#ifdef THIN_EDGES
+  // A broken face narrower than a pixel would be drawn as dots: its borders are drawn as lines.
+  float pixels = facing * thickness * lens.y / length(rest - eye_rest);
+  float filled = smoothstep(0.6, 1.1, pixels);
+#ifdef LINES
+  if (edge < 0.5) discard;
+  float weight = kLineWeight * clamp(pixels, 0.2, 1.0) * (1.0 - filled);
+#else
+  float weight = mix(1.0, filled, edge);
+#endif
+#endif
   float grazing = 1.0 - facing;
   float fresnel = grazing * grazing;
   fresnel = 0.07 + 0.93 * fresnel * fresnel * grazing;
@@ -42,5 +59,9 @@ void main() {
   vec3 deep = 0.5 * first_color.rgb * first_color.rgb;
   light += edge * deep * (0.35 * world + 0.1 * sun_light.rgb * sun);
   through = vec4((1.0 - fresnel) * mix(clear, deep, edge), 1.0 - fresnel);
+#ifdef THIN_EDGES
+  light *= weight;
+  through = mix(vec4(1.0), through, weight);
+#endif
   color = vec4(light, 1.0);
 }

@@ -15,6 +15,10 @@ flat out vec3 low;   // sides of the block; 1e4 m away where it is broken
 flat out vec3 high;
 #endif
 
+#ifdef THIN_EDGES
+flat out float thickness;  // between sides of the original surface, in metres; 1e4 and more without
+#endif
+
 out vec3 rest;
 out vec3 normal_rest;
 out vec3 shadow;
@@ -53,6 +57,11 @@ void main() {
   low = low_side.xyz - broken;
   high = high_side.xyz + broken;
   first_color.rgb *= low_side.w * vec3(1.0 + high_side.w, 1.0, 1.0 - 0.6 * high_side.w);
+#endif
+#ifdef THIN_EDGES
+  int box = int(piece >> 1) * 6 + 4;
+  vec3 extent = texelFetch(slots, box + 1).xyz - texelFetch(slots, box).xyz;
+  thickness = min(extent.x, min(extent.y, extent.z));
 #endif
 #ifdef TEXTURED
   picture_uv = uv;

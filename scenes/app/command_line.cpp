@@ -184,6 +184,28 @@ void add_export(CLI::App& program, Command& chosen) {
   });
 }
 
+void add_view(CLI::App& program, Command& chosen) {
+  Subcommand<ViewOptions> command(program, "view", "A page that plays a run in a browser", view,
+                                  chosen);
+  ViewOptions& options = *command.options;
+  command.app
+      ->add_option("SCENE", options.scene, "File or name of a scene, a .take file, or a .glb file")
+      ->required();
+  command.app->add_option("-o,--output", options.output, "X.html: the page")->required();
+  command.app
+      ->add_option("--three", options.three,
+                   "Folder of three.js r111, by default that of the Debian package libjs-three")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command.reads("SCENE", options.scene);
+  command.writes("-o", options.output);
+  command.add_frames();
+  command.add_changes();
+  command.app->get_option("--preset")->each([&options](const std::string&) {
+    options.preset_given = true;
+  });
+}
+
 void add_bench(CLI::App& program, Command& chosen) {
   Subcommand<BenchOptions> command(program, "bench", "Frame timing of the benchmark scenes", bench,
                                    chosen);
@@ -452,6 +474,7 @@ Command parse_command_line(int argc, char** argv) {
   add_simulate(program, chosen);
   add_render(program, chosen);
   add_export(program, chosen);
+  add_view(program, chosen);
   add_bench(program, chosen);
   add_trade(program, chosen);
   add_fracture(program, chosen);

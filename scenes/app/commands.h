@@ -10,6 +10,7 @@
 #include "render/renderer.h"
 #include "scenes/file/mesh_solid.h"
 #include "scenes/load.h"
+#include "scenes/report/view_page.h"
 #include "scenes/timing/timing.h"
 
 namespace sunder::app {
@@ -93,6 +94,10 @@ struct ExportOptions : CommonOptions {
   int frames_per_s = 60;
 };
 
+struct ViewOptions : ExportOptions {  ///< `scene` may also be a GLB file.
+  std::string three = scenes::kThreeFolder;
+};
+
 struct BenchOptions : CommonOptions {
   BenchOptions() { threads = 1; }  ///< Threads that wait for each other would count as time.
   std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
@@ -174,6 +179,7 @@ int check(const CheckOptions& options);
 int simulate(const SimulateOptions& options);
 int render_scene(const RenderOptions& options);
 int export_scene(const ExportOptions& options);
+int view(const ViewOptions& options);
 int bench(const BenchOptions& options);
 int trade(const TradeOptions& options);
 int fracture_mesh(const FractureOptions& options);

@@ -1,6 +1,8 @@
 // sunder export: writes a run or a recording as files for other programs.
 //
-// Read first: export_scene().
+// Read first: export_scene() and write_run().
+#include "scenes/app/export.h"
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,7 +12,6 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
-#include "engine/io/figures.h"
 #include "engine/io/frames_ahead.h"
 #include "engine/io/recording/recording.h"
 #include "engine/io/scene_export/gltf_scene_writer.h"
@@ -173,13 +174,11 @@ std::unique_ptr<Exporter> make_exporter(const ExportOptions& options, const std:
 
 }  // namespace
 
-int export_scene(const ExportOptions& options) {
-  options.apply();
-  check_output(options);
+WrittenRun write_run(const ExportOptions& options, const std::string& command) {
   const ExportInput input =
       options.scene.ends_with(".take") ? open_recording(options) : open_scene(options);
   const std::unique_ptr<Exporter> exporter = make_exporter(options, input.name);
-  Progress progress("export " + input.name, input.last, options.quiet);
+  Progress progress(command + " " + input.name, input.last, options.quiet);
   FramesUntil frames(*input.source, input.last);
   std::optional<FramesAhead> ahead;
   if (threads() > 1) ahead.emplace(frames);
@@ -188,20 +187,29 @@ int export_scene(const ExportOptions& options) {
   if (!input.recording) sinks.push_back(&limits);  // recordings do not have the counts
   const int stopped = pump_until_stopped(ahead ? static_cast<FrameSource&>(*ahead) : frames, sinks);
   ahead.reset();
-  if (exporter->frames() == 0) {
+  return {exporter->frames(),
+          exporter->summary(),
+          exporter->figures(),
+          input.name,
+          stopped,
+          input.recording ? input.recording->damage() : ""};
+}
+
+int export_scene(const ExportOptions& options) {
+  options.apply();
+  check_output(options);
+  WrittenRun run = write_run(options, "export");
+  if (run.frames == 0) {
     options.print("stopped before the first frame; nothing is written\n");
   } else {
-    options.print((stopped == 0 ? "wrote " : "stopped; wrote the frames so far: ") +
-                  options.output + ", " + exporter->summary() + "\n");
+    options.print((run.stopped == 0 ? "wrote " : "stopped; wrote the frames so far: ") +
+                  options.output + ", " + run.summary + "\n");
   }
-  Figures figures = exporter->figures();
-  figures["/output"] = options.output;
-  options.write_json(format_figures(figures));
-  if (input.recording && !input.recording->damage().empty()) {
-    throw InputError(options.scene + ": " + input.recording->damage() +
-                     "; the frames before were exported");
-  }
-  return stopped;
+  run.figures["/output"] = options.output;
+  options.write_json(format_figures(run.figures));
+  if (!run.damage.empty())
+    throw InputError(options.scene + ": " + run.damage + "; the frames before were exported");
+  return run.stopped;
 }
 
 }  // namespace sunder::app

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
+#include <sstream>
+#include <utility>
 
 namespace sunder::scenes {
 namespace {
@@ -21,22 +24,21 @@ constexpr const char* kPageStyle = R"(
   svg { max-width: 100%; height: auto; }
 )";
 
-std::string base64(std::span<const std::uint8_t> bytes) {
+}  // namespace
+
+void write_base64(std::span<const std::uint8_t> bytes, std::ostream& out) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t word = 0;
     for (std::size_t j = 0; j < 3; ++j) word = word << 8 | (j < count ? bytes[i + j] : 0u);
+    char digits[4] = {};
     for (std::size_t j = 0; j < 4; ++j) {
-      text += j <= count ? kDigits[word >> (18 - 6 * j) & 63] : '=';
+      digits[j] = j <= count ? kDigits[word >> (18 - 6 * j) & 63] : '=';
     }
+    out.write(digits, sizeof digits);
   }
-  return text;
 }
-
-}  // namespace
 
 std::string escaped(const std::string& text) {
   std::string safe;
@@ -69,7 +71,11 @@ std::string rounded(double value, int digits) {
 }
 
 std::string embedded_image(const std::string& type, std::span<const std::uint8_t> bytes) {
-  return "<img alt=\"\" src=\"data:" + type + ";base64," + base64(bytes) + "\">";
+  std::ostringstream tag;
+  tag << "<img alt=\"\" src=\"data:" << type << ";base64,";
+  write_base64(bytes, tag);
+  tag << "\">";
+  return std::move(tag).str();
 }
 
 std::string html_table(const std::vector<std::string>& head,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ std::string escaped(const std::string& text);
 
 /// Returns a number with `digits` significant digits and no trailing zeros; infinity is "∞".
 std::string rounded(double value, int digits = 3);
+
+/// Writes bytes in base 64, padded.
+void write_base64(std::span<const std::uint8_t> bytes, std::ostream& out);
 
 /// Returns an image tag that contains a file of the given type ("image/png").
 std::string embedded_image(const std::string& type, std::span<const std::uint8_t> bytes);

@@ -338,6 +338,22 @@ TEST(Renderer, DustThatHasRisenIsWiderAndThinner) {
   EXPECT_GT(high.pixels, 1.15 * low.pixels);
 }
 
+// The shadow map would be coarser if it covered them.
+TEST(Renderer, CastersWhoseShadowsAreOutOfViewDoNotChangeThePicture) {
+  const auto with_block_at = [](double x_m) {
+    SyntheticFrame s;
+    s.add_box({-1, 0, -1}, {1, 2, 1}, Stuff::kConcrete);
+    s.add_box({x_m - 0.5, 0, -0.5}, {x_m + 0.5, 1, 0.5}, Stuff::kConcrete);
+    s.frame.view.eye_W = Vec3(0, 3, 10);
+    s.frame.view.target_W = Vec3(0, 1, 0);
+    s.frame.view.to_sun_W = Vec3(0.2, 1, 0.1);
+    return renderer().draw(s.frame);
+  };
+  const Image in_view = with_block_at(3);
+  EXPECT_EQ(with_block_at(12), with_block_at(20)) << "both are out of view, within the map's reach";
+  EXPECT_NE(with_block_at(12), in_view);
+}
+
 // Distant shadow casters do not count for the size of the shadow map, but are drawn into it.
 TEST(Renderer, AShadowAtTheBorderOfTheMapIsNotExtendedBeyondIt) {
   SyntheticFrame s;
@@ -368,6 +384,49 @@ TEST(Renderer, AWallIsSeenThroughAPane) {
   const Vec3f covered = pixel(renderer().draw(s.frame), 160, 90);
   EXPECT_NE(bare, covered);
   EXPECT_LT((bare - covered).cwiseAbs().maxCoeff(), 60);
+}
+
+/// Returns a frame of a pane, cut by a slanted crack, whose faces are narrower than a pixel.
+Frame cracked_pane(FaceKind kind) {
+  SyntheticFrame s;
+  s.add_box({-3, 0, -1}, {3, 4, -0.8}, Stuff::kConcrete);
+  auto meshes = std::make_shared<MeshStore>(*s.frame.meshes);
+  for (const double side : {-1.0, 1.0}) {
+    std::vector<Vec3> points;
+    for (const double z : {0.0, 0.012}) {
+      points.insert(points.end(), {Vec3(side, 0.5, z), Vec3(side, 2.5, z), Vec3(-0.15, 0.5, z),
+                                   Vec3(0.15, 2.5, z)});
+    }
+    Convex half;
+    half.polyhedron = make_hull(points);
+    half.box = bounds(half.polyhedron);
+    half.material = MaterialIndex(static_cast<std::size_t>(Stuff::kGlass));
+    for (ConvexPolyhedron::Face& face : half.polyhedron.faces) {
+      const Vec3& normal = face.plane.normal;
+      if (normal.x() * side < -0.5) face.kind = kind;
+    }
+    s.frame.instances.push_back({MeshIndex(meshes->size()), 0});
+    meshes->push_back(make_mesh(half, std::vector<std::uint8_t>(half.polyhedron.faces.size())));
+  }
+  s.frame.bodies[0].com_R = Vec3::Zero();
+  s.frame.bodies[0].X_WB = Pose();
+  s.frame.meshes = meshes;
+  s.frame.view.eye_W = Vec3(0.9, 1.5, 7);
+  s.frame.view.target_W = Vec3(0, 1.5, 0);
+  return s.frame;
+}
+
+TEST(Renderer, ACrackNarrowerThanAPixelIsALineWithoutGaps) {
+  const Image whole = renderer().draw(cracked_pane(FaceKind::kSurface));
+  const Image cracked = renderer().draw(cracked_pane(FaceKind::kInterior));
+  int gaps = 0;
+  for (int y = 75; y < 105; ++y) {
+    float most = 0;
+    for (int x = 140; x < 180; ++x)
+      most = std::max(most, (pixel(whole, x, y) - pixel(cracked, x, y)).cwiseAbs().maxCoeff());
+    if (most <= 2) ++gaps;
+  }
+  EXPECT_EQ(gaps, 0);
 }
 
 TEST(Renderer, TenKilometresFromTheOriginThePictureIsTheSame) {
