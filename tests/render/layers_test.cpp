@@ -108,7 +108,7 @@ TEST(Layers, OfDepthInMetresAreFloatsThatOtherProgramsRead) {
 
 TEST(Layers, IncludeTexturedSurfaces) {
   Frame frame = wall();
-  auto mesh = std::make_shared<Mesh>(*frame.meshes->front());
+  auto mesh = std::make_shared<Mesh>(*(*frame.meshes)[0]);
   for (Mesh::Vertex& vertex : mesh->vertices) vertex.look = Mesh::kFirstAppearance;
   frame.meshes = std::make_shared<const MeshStore>(MeshStore{std::move(mesh)});
   frame.appearances = std::make_shared<const std::vector<Appearance>>(1);
