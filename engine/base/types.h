@@ -86,6 +86,7 @@ struct Index {
   /// Returns true for the index of no element.
   constexpr bool none() const { return value == kNone; }
   constexpr auto operator<=>(const Index&) const = default;
+  /// Returns the fields, for saved states.
   static constexpr auto fields(auto& self) { return std::tie(self.value); }
 };
 

@@ -54,6 +54,7 @@ class MeshStore {
   using Pointer = std::shared_ptr<const Mesh>;
 
   MeshStore() = default;
+  /// Makes a store of these meshes, in their order.
   MeshStore(std::initializer_list<Pointer> meshes) {
     for (const Pointer& mesh : meshes) push_back(mesh);
   }
@@ -65,6 +66,7 @@ class MeshStore {
     const auto& block = blocks_[i / kBlock];
     return block ? (*block)[i % kBlock] : kReleased;
   }
+  /// Adds a mesh, which gets the index size().
   void push_back(Pointer mesh);
   /// Releases the meshes whose indices are given, ascending.
   void release(std::span<const std::uint32_t> meshes);
@@ -78,6 +80,7 @@ class MeshStore {
         visit(i);
     }
   }
+  /// Returns the fields, for saved states.
   static auto fields(auto& self) { return std::tie(self.blocks_, self.size_); }
 
  private:

@@ -108,6 +108,7 @@ class LimitsHit {
       if (counts_[i] > 0) visit(kLimitTexts[i], counts_[i]);
   }
 
+  /// Returns the fields, for saved states.
   static auto fields(auto& self) { return std::tie(self.counts_); }
 
  private:

@@ -296,7 +296,14 @@ constexpr const char* kMeshHelp =
     "grid:NX,NY,NZ voronoi:N hall:N), or the built-in mesh statue:N, of N triangles";
 
 /// Adds the options of the decomposition of a mesh.
+void add_scale(CLI::App* app, double& scale) {
+  app->add_option("--scale", scale, "Length of one unit of a file, in m")
+      ->check(from_to(1e-6, 1e6))
+      ->capture_default_str();
+}
+
 void add_decomposition(CLI::App* app, scenes::MeshOptions& options) {
+  add_scale(app, options.scale);
   app->add_option(
          "--nodes", options.nodes,
          "Nodes of the decomposition of a file: their number, or a file with x y z on each line")
@@ -384,6 +391,7 @@ void add_hull(CLI::App& program, Command& chosen) {
                    "Number of vertices that the hull is made from")
       ->required()
       ->check(from_to(4, 10000));
+  add_scale(command.app, command.options->scale);
 }
 
 void add_doctor(CLI::App& program, Command& chosen) {

@@ -155,6 +155,7 @@ struct VacdOptions : CommonOptions {
 struct HullOptions : CommonOptions {
   std::string mesh;
   std::uint32_t vertices = 0;
+  double scale = 1;  ///< Length of one unit of a file, in m.
 };
 
 struct GoldenOptions : CommonOptions {

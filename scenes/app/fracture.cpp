@@ -88,8 +88,8 @@ double volume_error(const Broken& broken) {
 
 std::int64_t whole(std::size_t count) { return static_cast<std::int64_t>(count); }
 
-Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
-  Figures figures = input_figures(solid);
+Figures figures_of(const scenes::MeshSolid& solid, double scale, const Broken& broken) {
+  Figures figures = input_figures(solid, scale);
   const fracture::Audit& after = broken.after;
   figures["/pieces"] = whole(after.pieces);
   figures["/convexes"] = whole(after.convexes);
@@ -117,7 +117,7 @@ Figures figures_of(const scenes::MeshSolid& solid, const Broken& broken) {
   return figures;
 }
 
-std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
+std::string summary(const scenes::MeshSolid& solid, double scale, const Broken& broken) {
   const fracture::Audit& after = broken.after;
   char text[600];
   std::snprintf(
@@ -129,7 +129,7 @@ std::string summary(const scenes::MeshSolid& solid, const Broken& broken) {
       broken.plan.welded, broken.before.volume_m3, after.volume_m3 + broken.plan.debris_volume_m3,
       volume_error(broken), after.overlap_m3, solid.prepare_ms + broken.prepare_ms, broken.total_ms,
       broken.plan.clip_ms, broken.plan.islands_ms);
-  return input_summary(solid) + text + doubled_summary(broken.double_counted);
+  return input_summary(solid, scale) + text + doubled_summary(broken.double_counted);
 }
 
 /// A solid, its break, and the result.
@@ -207,7 +207,7 @@ int fracture_mesh(const FractureOptions& options) {
     solid.warnings.push_back(
         uncut_convexes_warning(plan.failed, plan.failed_m3, broken.before.volume_m3) +
         "; more --nodes may help");
-  options.print(summary(solid, broken));
+  options.print(summary(solid, options.solid.scale, broken));
   if (!options.output.empty()) {
     const std::size_t walled =
         write_solids(options.output, broken.plan.pieces, stone(), appearances, options.explode,
@@ -220,7 +220,7 @@ int fracture_mesh(const FractureOptions& options) {
     }
   }
   print_warnings(solid);
-  options.write_json(format_figures(figures_of(solid, broken)));
+  options.write_json(format_figures(figures_of(solid, options.solid.scale, broken)));
   return 0;
 }
 

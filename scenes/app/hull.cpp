@@ -8,6 +8,7 @@
 #include "engine/geometry/approximate_hull.h"
 #include "fracture/solids.h"
 #include "scenes/app/commands.h"
+#include "scenes/app/mesh_report.h"
 
 namespace sunder::app {
 namespace {
@@ -17,9 +18,10 @@ constexpr double kOutsideTolerance = 1e-9;
 
 /// Returns the vertices that faces of a mesh use, or all vertices of a built-in solid; sets the
 /// name and the counts of `solid`.
-std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
+std::vector<Vec3> points_of(const std::string& mesh, double scale, scenes::MeshSolid& solid) {
   std::vector<Vec3> points;
   if (scenes::is_built_in_solid(mesh)) {
+    scenes::need_no_scale(mesh, scale);
     solid = scenes::as_mesh_solid(mesh, fracture::make_solid(mesh));
     for (const ConvexPtr& convex : solid.compound.convexes) {
       const auto& vertices = convex->polyhedron.vertices;
@@ -34,7 +36,7 @@ std::vector<Vec3> points_of(const std::string& mesh, scenes::MeshSolid& solid) {
   std::vector<std::uint8_t> used(raw.vertices.size(), 0);
   for (const std::uint32_t vertex : raw.corners) used[vertex] = 1;
   for (std::size_t v = 0; v < used.size(); ++v) {
-    if (used[v]) points.push_back(raw.vertices[v]);
+    if (used[v]) points.push_back(scale * raw.vertices[v]);
   }
   return points;
 }
@@ -54,7 +56,9 @@ bool encloses(const ConvexPolyhedron& hull, const std::vector<Vec3>& points) {
 int hull(const HullOptions& options) {
   options.apply();
   scenes::MeshSolid solid;
-  const std::vector<Vec3> points = points_of(options.mesh, solid);
+  const std::vector<Vec3> points = points_of(options.mesh, options.scale, solid);
+  Box box;
+  for (const Vec3& point : points) box.extend(point);
   const double exact_m3 = mass_properties(make_hull(points)).volume_m3;
   if (!(exact_m3 > 0)) throw InputError(options.mesh + ": its vertices span no volume");
 
@@ -72,14 +76,18 @@ int hull(const HullOptions& options) {
       "hull     of %zu vertices chosen: %zu faces, %.4f of the true hull's volume, %s all "
       "vertices; %.2f ms\n",
       used, fitted.faces.size(), ratio, all ? "encloses" : "does NOT enclose", total_ms);
-  options.print(solid.name + ": " + std::to_string(points.size()) + " vertices\n" + text);
-  options.write_json(format_figures({{"/input/vertices", std::int64_t(solid.vertices)},
-                                     {"/input/faces", std::int64_t(solid.faces)},
-                                     {"/vertices_used", std::int64_t(used)},
-                                     {"/faces", std::int64_t(fitted.faces.size())},
-                                     {"/volume_ratio", ratio},
-                                     {"/encloses_all", all},
-                                     {"/total_ms", total_ms}}));
+  const InputSize size{box.extent(), exact_m3};
+  options.print(solid.name + ": " + std::to_string(points.size()) + " vertices\n" +
+                app::text(size, options.scale) + text);
+  Figures figures = {{"/input/vertices", std::int64_t(solid.vertices)},
+                     {"/input/faces", std::int64_t(solid.faces)},
+                     {"/vertices_used", std::int64_t(used)},
+                     {"/faces", std::int64_t(fitted.faces.size())},
+                     {"/volume_ratio", ratio},
+                     {"/encloses_all", all},
+                     {"/total_ms", total_ms}};
+  add_size(size, options.scale, figures);
+  options.write_json(format_figures(figures));
   return all ? 0 : 1;
 }
 

@@ -1,5 +1,6 @@
 #include "scenes/app/mesh_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include "engine/io/mesh/obj_writer.h"
 #include "render/image/normal_map.h"
 #include "scenes/app/picture.h"
+#include "scenes/load.h"
 
 namespace sunder::app {
 namespace {
@@ -19,14 +21,44 @@ bool is_folder(const std::string& output) {
   return output.ends_with('/') || std::filesystem::path(output).extension().empty();
 }
 
+/// Density of the stone that a solid without a material may be of.
+double stone_kg_m3() {
+  const std::vector<Material> materials = scenes::builtin_materials();
+  return std::ranges::find(materials, "stone", &Material::name)->density_kg_m3;
+}
+
+InputSize size_of(const scenes::MeshSolid& solid) {
+  return {bounds(solid.compound).extent(), volume(solid.compound)};
+}
+
 std::string text(const Repair& repair) {
   return repair.name + " (" + std::to_string(repair.count) + ")";
 }
 
 }  // namespace
 
-Figures input_figures(const scenes::MeshSolid& solid) {
+double InputSize::mass_kg() const { return stone_kg_m3() * volume_m3; }
+
+std::string text(const InputSize& size, double scale) {
+  char line[240];
+  std::snprintf(
+      line, sizeof line,
+      "size     %.4g x %.4g x %.4g m (--scale %g); as stone of %.0f kg/m³ it has %.4g kg\n",
+      size.extent_m.x(), size.extent_m.y(), size.extent_m.z(), scale, stone_kg_m3(),
+      size.mass_kg());
+  return line;
+}
+
+void add_size(const InputSize& size, double scale, Figures& figures) {
+  for (int axis = 0; axis < 3; ++axis)
+    figures["/input/size_m/" + std::to_string(axis)] = size.extent_m[axis];
+  figures["/input/scale"] = scale;
+  figures["/input/stone_kg"] = size.mass_kg();
+}
+
+Figures input_figures(const scenes::MeshSolid& solid, double scale) {
   Figures figures;
+  add_size(size_of(solid), scale, figures);
   figures["/input/vertices"] = static_cast<std::int64_t>(solid.vertices);
   figures["/input/faces"] = static_cast<std::int64_t>(solid.faces);
   figures["/input/closed"] = solid.closed;
@@ -46,14 +78,15 @@ void print_warnings(const scenes::MeshSolid& solid) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
 }
 
-std::string input_summary(const scenes::MeshSolid& solid) {
+std::string input_summary(const scenes::MeshSolid& solid, double scale) {
   std::string line = "input    " + solid.name + ": " + std::to_string(solid.vertices) +
                      " vertices, " + std::to_string(solid.faces) + " faces, " +
                      (solid.closed ? "closed" : "not closed") + "\n";
   std::string repairs;
   for (const Repair& repair : solid.repairs)
     repairs += (repairs.empty() ? "" : ", ") + text(repair);
-  return line + "repairs  " + (repairs.empty() ? "none" : repairs) + "\n";
+  return line + "repairs  " + (repairs.empty() ? "none" : repairs) + "\n" +
+         text(size_of(solid), scale);
 }
 
 void add_doubled(const std::optional<fracture::DoubleCountedVolume>& double_counted,

@@ -13,12 +13,24 @@
 
 namespace sunder::app {
 
+/// Size of an input, and the mass that it would have as stone.
+struct InputSize {
+  Vec3 extent_m = Vec3::Zero();
+  double volume_m3 = 0;
+
+  double mass_kg() const;
+};
+/// Returns a line of text on a size, of a file whose unit is `scale` m long.
+std::string text(const InputSize& size, double scale);
+/// Adds a size to the object `input` of the JSON output.
+void add_size(const InputSize& size, double scale, Figures& figures);
+
 /// Returns the object `input` and the list `warnings` of the JSON output.
-Figures input_figures(const scenes::MeshSolid& solid);
+Figures input_figures(const scenes::MeshSolid& solid, double scale = 1);
 /// Prints the warnings.
 void print_warnings(const scenes::MeshSolid& solid);
-/// Returns two lines of text on the input and its repairs.
-std::string input_summary(const scenes::MeshSolid& solid);
+/// Returns three lines of text on the input, its repairs and its size.
+std::string input_summary(const scenes::MeshSolid& solid, double scale = 1);
 
 /// Returns a line on the volume that overlaps count twice; empty if there is none.
 std::string doubled_summary(const std::optional<fracture::DoubleCountedVolume>& double_counted);

@@ -28,7 +28,7 @@ std::string megabytes(std::uint64_t bytes) {
 /// Returns the world of the scene, or of the saved state, of the options.
 World make_world(const SimulateOptions& options) {
   if (options.scene.empty() && options.resume.empty())
-    throw InputError("simulate: expected a SCENE, or --resume with the file of a saved state");
+    throw InputError("SCENE is required, or --resume with the file of a saved state");
   const scenes::SimulationOptions simulation =
       simulation_options({.count_loops = options.count_threads});
   if (options.resume.empty())

@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Doubled = std::optional<fracture::DoubleCountedVolume>;
 
-Figures figures_of(const scenes::MeshSolid& solid, const Doubled& double_counted) {
-  Figures figures = input_figures(solid);
+Figures figures_of(const scenes::MeshSolid& solid, double scale, const Doubled& double_counted) {
+  Figures figures = input_figures(solid, scale);
   figures["/convexes"] = static_cast<std::int64_t>(solid.compound.convexes.size());
   figures["/ghosts"] = static_cast<std::int64_t>(solid.compound.ghosts.size());
   figures["/hull_volume_ratio"] = solid.vacd->hull_volume_ratio();
@@ -30,7 +30,7 @@ Figures figures_of(const scenes::MeshSolid& solid, const Doubled& double_counted
   return figures;
 }
 
-std::string summary(const scenes::MeshSolid& solid, const Doubled& double_counted) {
+std::string summary(const scenes::MeshSolid& solid, double scale, const Doubled& double_counted) {
   const fracture::VacdFigures& vacd = *solid.vacd;
   char text[400];
   std::snprintf(text, sizeof text,
@@ -41,7 +41,7 @@ std::string summary(const scenes::MeshSolid& solid, const Doubled& double_counte
                 solid.compound.ghosts.size(), vacd.hull_volume_ratio(), vacd.hull_volume_m3,
                 vacd.mesh_volume_m3, solid.prepare_ms - vacd.total_ms, vacd.total_ms,
                 vacd.split_ms);
-  return input_summary(solid) + text + doubled_summary(double_counted);
+  return input_summary(solid, scale) + text + doubled_summary(double_counted);
 }
 
 /// Returns each convex as a compound of its own; colours repeat after `colors` convexes.
@@ -63,14 +63,14 @@ void decompose_once(const VacdOptions& options) {
   progress.reset();
   print_warnings(solid);
   const Doubled double_counted = fracture::double_counted_volume(solid.compound);
-  options.print(summary(solid, double_counted));
+  options.print(summary(solid, mesh.scale, double_counted));
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
                  options.explode, Walls::kKeep);
     options.print("wrote " + options.output + "\n");
   }
-  options.write_json(format_figures(figures_of(solid, double_counted)));
+  options.write_json(format_figures(figures_of(solid, mesh.scale, double_counted)));
 }
 
 /// Decomposes the mesh again whenever the file of nodes changes, until the program is stopped.

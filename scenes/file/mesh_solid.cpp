@@ -246,14 +246,17 @@ MeshSolid as_mesh_solid(const std::string& name, Compound compound) {
   return solid;
 }
 
+void need_no_scale(const std::string& mesh, double scale) {
+  if (scale != 1)
+    throw InputError(mesh + ": a built-in solid has no scale; give its size in its name");
+}
+
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options) {
   const Stopwatch watch;
   MeshSolid solid;
   if (is_built_in_solid(mesh)) {
     vacd_options(options);
-    if (options.scale != 1 || options.size_m) {
-      throw InputError(mesh + ": a built-in solid has no scale; give its size in its name");
-    }
+    need_no_scale(mesh, options.size_m ? 0 : options.scale);
     if (!options.materials.empty()) {
       throw InputError(
           mesh + ": a built-in solid has no named parts; remove `materials`, and give `material`");

@@ -31,6 +31,8 @@ struct MeshSolid {
   double prepare_ms = 0;                      ///< Time of reading, repairs and decomposition.
 };
 
+/// Throws InputError unless the scale of a built-in solid is 1.
+void need_no_scale(const std::string& mesh, double scale);
 /// Makes the compound of a file, a built-in mesh or a built-in solid. Throws InputError if `mesh`
 /// names none of these, or an option cannot be met.
 MeshSolid make_mesh_solid(const std::string& mesh, const MeshOptions& options);

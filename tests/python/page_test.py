@@ -14,7 +14,7 @@ PAGE = Path(os.environ["SUNDER_ROOT"], "docs", "python.md")
 class Recipes(unittest.TestCase):
     def test_run(self):
         recipes = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
-        self.assertEqual(len(recipes), 5)
+        self.assertEqual(len(recipes), 6)
         for recipe in recipes:
             with self.subTest(recipe.partition("world")[0]), tempfile.TemporaryDirectory() as folder:
                 run = subprocess.run([sys.executable, "-W", "error", "-c", recipe], cwd=folder,

@@ -149,7 +149,7 @@ class Worlds(unittest.TestCase):
 
     def test_add_materials(self):
         world = sunder.World(sunder.Scene())
-        index = world.add(sunder.Material("lead", like="steel"))
+        index = world.add_material(sunder.Material("lead", like="steel"))
         self.assertEqual(world.materials[index], "lead")
         self.assertIn(world.add_ball((0, 2, 0), material="lead"), world)
         self.assertIn(world.add_solid(sunder.Asset("box:1,1,1", index), origin=(3, 2, 0)), world)
@@ -183,7 +183,7 @@ class Worlds(unittest.TestCase):
 
     def test_go_on_alike_when_restored(self):
         world = sunder.World(sunder.load_scene("glass"))
-        world.add(sunder.Material("thick glass", like="glass"))
+        world.add_material(sunder.Material("thick glass", like="glass"))
         world.run(0.3)
         saved = world.save()
         restored = sunder.World.restore(saved, threads=1)

@@ -218,6 +218,35 @@ TEST(Fracture, WritesThePiecesOfAFilesMesh) {
   EXPECT_GT(read_mesh(folder / "x.glb").polygons.size(), 8u);
 }
 
+TEST(MeshCommands, AScaleMakesMetresOfTheUnitsOfAFile) {
+  const Folder folder;
+  std::ofstream file(folder / "mm.obj");
+  for (int corner = 0; corner < 8; ++corner)
+    file << "v " << 200 * (corner & 1) << " " << 150 * (corner >> 1 & 1) << " "
+         << 1000 * (corner >> 2) << "\n";
+  file << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  file.close();
+  const std::string mesh = folder / "mm.obj";
+  for (const std::string& command :
+       {"fracture " + mesh + " --pattern voronoi:9 --at 0.1,0.1,0.5 --radius 0.1", "vacd " + mesh,
+        "hull " + mesh + " --vertices 8"}) {
+    const Figures json = figures(command + " --scale 0.001");
+    EXPECT_NEAR(number(json, "/input/size_m/0"), 0.2, 1e-9) << command;
+    EXPECT_NEAR(number(json, "/input/size_m/1"), 0.15, 1e-9) << command;
+    EXPECT_NEAR(number(json, "/input/size_m/2"), 1, 1e-9) << command;
+    EXPECT_NEAR(number(json, "/input/stone_kg") / number(figures(command), "/input/stone_kg"), 1e-9,
+                1e-12)
+        << command;
+  }
+  EXPECT_GT(count(figures("fracture " + mesh +
+                          " --pattern voronoi:40 --at 0.1,0.1,0.5 "
+                          "--radius 0.1 --scale 0.001"),
+                  "/pieces"),
+            2);
+  EXPECT_NE(sunder("hull " + mesh + " --vertices 8 --scale 0.001").out.find("0.2 x 0.15 x 1 m"),
+            std::string::npos);
+}
+
 TEST(Vacd, TakesNodesFromAFile) {
   const Folder folder;
   std::ofstream(folder / "t.obj") << open_tetrahedron();
@@ -299,7 +328,11 @@ constexpr const char* kWrong[] = {"fracture",
                                   "hull box:1,1,1",
                                   "hull box:1,1,1 --vertices 3",
                                   "hull box:1,1,1 --vertices many",
-                                  "hull nowhere.ply --vertices 9"};
+                                  "hull nowhere.ply --vertices 9",
+                                  "hull box:1,1,1 --vertices 8 --scale 0.001",
+                                  "hull t.obj --vertices 8 --scale 0",
+                                  "vacd statue:2000 --scale nan",
+                                  "fracture box:1,1,1 --pattern voronoi:9 --scale 2"};
 
 TEST(MeshCommands, WrongUseExitsWithTwoAndOneErrorLine) {
   for (const std::string wrong : kWrong) {

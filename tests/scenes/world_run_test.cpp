@@ -611,6 +611,20 @@ TEST(World, OtherBytesAreNotRestored) {
   refuses(newer, "only that version can restore it");
 }
 
+TEST(World, ABallThatWasMovedStaysUnbreakable) {
+  World world = make_world(empty_scene());
+  Ball stone = ball(Vec3(0, 0.5, 0), Vec3::Zero(), 0.5);
+  stone.material = material("stone");
+  const BodyKey key = world.add(stone);
+  world.move_to(key, {Vec3(0, 0.6, 0), Quat::Identity()}, 0.1);
+  run(world, 0.2);
+  world.release(key);
+  world.add(ball(Vec3(3, 0.6, 0), Vec3(-40, 0, 0), 0.4));
+  run(world, 0.5);
+  EXPECT_EQ(world.size(), 2u);
+  EXPECT_GT(world.body(key).motion.velocity_W.norm(), 1);
+}
+
 TEST(World, APlanarWorldRefusesToBeCopiedOrSaved) {
   const World world = make_world(parse_scene(
       "[scene]\ndescription = \"x\"\nplanar = true\n[[ball]]\nposition = [0, 5, 0]\n", "x.toml"));

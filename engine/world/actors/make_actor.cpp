@@ -94,7 +94,7 @@ void set_least(const WorldState& world, Actor& actor) {
   actor.least_J = actor.least_Ns = actor.least_m_s = actor.least_slow_J = kNever;
   actor.stress.least_J = std::numeric_limits<double>::infinity();
   actor.stress.least_Ns = 0;
-  if (actor.is_kinematic) return;
+  if (actor.is_kinematic || actor.structure.empty()) return;  // balls do not break
   const bool may_bend = has_thin_convex(actor.structure);
   for (const MaterialIndex index : actor.materials) {
     const Material& material = world.material(index);

@@ -735,6 +735,13 @@ class World:
     def copy(self) -> World:
         """Returns a world in the same state, which goes on with the same bits: to roll back, keep
         a copy. A planar world cannot be copied."""
+    def save(self) -> bytes:
+        """Returns the state as bytes, for restore(); worlds in equal states have equal bytes. A
+        planar world cannot be saved. Worlds can be pickled in this way."""
+    @staticmethod
+    def restore(saved: bytes, threads: int = 0) -> World:
+        """Returns a world in the state that save() of the same version has returned, in this or
+        another process; it goes on with the same bits."""
     @property
     def time_s(self) -> float:
         """Time in s."""
