@@ -362,6 +362,7 @@ class Player {
       this.last = now;
       if (this.time >= this.duration) {
         this.pause();
+        this.showCost();
         this.report();
       }
     }
@@ -400,6 +401,11 @@ class Player {
     }
     if (this.intervals.length % 15 !== 0 || now() - (this.costTime || 0) < 500) return;
     this.costTime = now();
+    this.showCost();
+  }
+
+  // Shows the median time of the last frames.
+  showCost() {
     this.frameTime = median(this.intervals);
     element('cost').textContent = this.frameTime.toFixed(1) + ' ms a frame';
     document.body.dataset.frameMs = this.frameTime.toFixed(2);
