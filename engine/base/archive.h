@@ -76,11 +76,12 @@ constexpr std::size_t sum_of_sizes(std::type_identity<std::tuple<Fields&...>>) {
   return (sizeof(Fields) + ... + 0);
 }
 
-/// Returns true if the bytes of a T in memory are its value: it has no pointers and no padding.
+/// Returns true if the bytes of a T in memory are its value, and any bytes are a value: it has no
+/// pointers, no padding and no bool.
 template <class T>
 constexpr bool is_plain() {
-  if constexpr (std::is_pointer_v<T> || HasArchive<T>) {
-    return false;
+  if constexpr (std::is_pointer_v<T> || HasArchive<T> || std::is_same_v<T, bool>) {
+    return false;  // a damaged bool would be neither true nor false
   } else if constexpr (!std::is_class_v<T> && !std::is_array_v<T>) {
     return !std::is_union_v<T>;
   } else if constexpr (kIsEigen<T>) {
@@ -151,6 +152,11 @@ class Archive {
     static_assert(!std::is_pointer_v<T> && !std::is_const_v<T>);
     if constexpr (internal::HasArchive<T>) {
       archive(*this, object);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      std::uint8_t byte = object;
+      raw(&byte, sizeof byte);
+      if (byte > 1) refuse();
+      object = byte != 0;
     } else if constexpr (internal::is_plain<T>()) {
       raw(&object, sizeof object);
     } else if constexpr (internal::kIsArray<T>) {
@@ -243,14 +249,16 @@ class Archive {
       auto made = std::make_shared<Object>();
       read_.push_back({made, &typeid(Object)});
       one(*made);
+      read_[index].complete = true;
     }
-    if (*read_[index].type != typeid(Object)) refuse();
+    if (*read_[index].type != typeid(Object) || !read_[index].complete) refuse();
     pointer = std::static_pointer_cast<Object>(read_[index].object);
   }
 
   struct Shared {
     std::shared_ptr<void> object;
     const std::type_info* type = nullptr;
+    bool complete = false;  ///< False while it is read: an object does not refer to itself.
   };
 
   bool reads_ = false;
