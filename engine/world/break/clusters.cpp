@@ -86,15 +86,17 @@ class ClusterMembership {
  public:
   explicit ClusterMembership(const WorldState& world)
       : world_(world),
-        place_of_key_(world.actors.next_key(), ground()),
+        first_key_(world.actors.size() > 0 ? world.actors[0].key : world.actors.next_key()),
+        place_of_key_(world.actors.next_key() - first_key_, ground()),
         all_(world.actors.size() + 1) {
     for (std::uint32_t place = 0; place < ground(); ++place) {
-      place_of_key_[world.actors[place].key] = place;
+      place_of_key_[world.actors[place].key - first_key_] = place;
     }
   }
 
   std::uint32_t place(std::uint32_t key) const {
-    return key < place_of_key_.size() ? place_of_key_[key] : ground();
+    const std::uint32_t offset = key - first_key_;  // wraps for keys that are gone
+    return offset < place_of_key_.size() ? place_of_key_[offset] : ground();
   }
   /// Returns the actor at an index; null for the ground.
   const Actor* actor(std::uint32_t place) const {
@@ -118,7 +120,8 @@ class ClusterMembership {
   std::uint32_t ground() const { return static_cast<std::uint32_t>(world_.actors.size()); }
 
   const WorldState& world_;
-  std::vector<std::uint32_t> place_of_key_;
+  std::uint32_t first_key_;                  ///< Least key of an actor.
+  std::vector<std::uint32_t> place_of_key_;  ///< By key, from the least on.
   std::vector<Member> all_;
   std::uint32_t clusters_ = 0;  ///< Number of clusters so far.
 };
