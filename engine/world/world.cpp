@@ -298,10 +298,7 @@ World::World(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Brea
 
 World::World(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 
-World World::copy() const {
-  parts_->world.meshes.publish();  // shared until either world changes it
-  return World(std::make_unique<Parts>(*parts_));
-}
+World World::copy() const { return World(std::make_unique<Parts>(*parts_)); }
 
 void World::save(Archive& bytes) const {
   // An archive that writes leaves the objects as they are.

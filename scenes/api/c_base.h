@@ -168,14 +168,13 @@ struct FrameArrays {
 struct WorldEntry {
   std::mutex mutex;  ///< Held by the call that uses the world.
   World world;
-  std::vector<Material> materials;  ///< Those of the scene, and those added.
-  bool incomplete = false;          ///< A call that changes the world did not end.
+  bool incomplete = false;  ///< A call that changes the world did not end.
   std::optional<EventArrays> events;
   std::optional<FrameArrays> frame;
 
   Array<std::byte> saved;  ///< The last state that was saved.
 
-  explicit WorldEntry(World made) : world(std::move(made)), materials(world.materials()) {}
+  explicit WorldEntry(World made) : world(std::move(made)) {}
 };
 
 struct AssetEntry {

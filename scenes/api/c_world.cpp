@@ -93,10 +93,11 @@ SunderMaterial material_called(const std::vector<Material>& materials, const cha
 }
 
 const Material& material_at(const WorldEntry& entry, SunderMaterial material, const char* name) {
-  if (material.index >= entry.materials.size())
+  const std::vector<Material>& materials = entry.world.materials();
+  if (material.index >= materials.size())
     refuse(std::string(name) + " has the index " + std::to_string(material.index) +
-           "; expected one below " + std::to_string(entry.materials.size()));
-  return entry.materials[material.index];
+           "; expected one below " + std::to_string(materials.size()));
+  return materials[material.index];
 }
 
 /// Copies a colour, whose elements are finite.
@@ -219,9 +220,8 @@ SunderResult sunder_world_create(const SunderWorldDef* def, SunderWorld* world) 
 SunderResult sunder_world_copy(SunderWorld world, SunderWorld* copy) {
   return ask_world("sunder_world_copy", world, [&](WorldEntry& entry) {
     need_pointer(copy, "copy");
-    const WorldPtr made =
-        std::allocate_shared<WorldEntry>(HookAllocator<WorldEntry>(), entry.world.copy());
-    *copy = add_world(made);
+    *copy = add_world(
+        std::allocate_shared<WorldEntry>(HookAllocator<WorldEntry>(), entry.world.copy()));
   });
 }
 
@@ -282,7 +282,7 @@ SunderResult sunder_builtin_material(const char* name, SunderMaterial* material)
 SunderResult sunder_world_material(SunderWorld world, const char* name, SunderMaterial* material) {
   return ask_world("sunder_world_material", world, [&](WorldEntry& entry) {
     need_pointer(material, "material");
-    *material = material_called(entry.materials, name);
+    *material = material_called(entry.world.materials(), name);
   });
 }
 
@@ -325,9 +325,7 @@ SunderResult sunder_world_add_material(SunderWorld world, const SunderMaterialDe
     need_def(def, kMaterialCookie, "def", "sunder_world_material_def");
     need_pointer(material, "material");
     const Material added = material_from(material_at(entry, def->base, "def.base"), *def);
-    const MaterialIndex index = entry.world.add(added);
-    entry.materials.push_back(added);
-    *material = material_of(index);
+    *material = material_of(entry.world.add(added));
   });
 }
 

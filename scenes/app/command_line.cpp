@@ -142,9 +142,7 @@ void add_render(CLI::App& program, Command& chosen) {
   command.writes("-o", options.output);
   add_looks(command.app, options.render);
   command.add_changes();
-  command.app->get_option("--preset")->each([&options](const std::string&) {
-    options.preset_given = true;
-  });
+  command.note_preset();
 }
 
 void add_export(CLI::App& program, Command& chosen) {
@@ -179,9 +177,7 @@ void add_export(CLI::App& program, Command& chosen) {
   command.writes("-o", options.output, true);
   command.add_frames();
   command.add_changes();
-  command.app->get_option("--preset")->each([&options](const std::string&) {
-    options.preset_given = true;
-  });
+  command.note_preset();
 }
 
 void add_view(CLI::App& program, Command& chosen) {
@@ -201,9 +197,7 @@ void add_view(CLI::App& program, Command& chosen) {
   command.writes("-o", options.output);
   command.add_frames();
   command.add_changes();
-  command.app->get_option("--preset")->each([&options](const std::string&) {
-    options.preset_given = true;
-  });
+  command.note_preset();
 }
 
 void add_bench(CLI::App& program, Command& chosen) {

@@ -111,6 +111,12 @@ struct Subcommand {
         ->capture_default_str();
     add_set();
   }
+  /// Sets Options::preset_given if the command line has --preset.
+  void note_preset() {
+    app->get_option("--preset")->each([given = options](const std::string&) {
+      given->preset_given = true;
+    });
+  }
   void add_set() {
     app->add_option("--set", options->load.set,
                     "Set a key of the scene, key=value; may be repeated")

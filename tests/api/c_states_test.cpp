@@ -111,14 +111,21 @@ TEST(CStates, AreThoseOfAWorldThatIsActedOn) {
   EXPECT_EQ(sunder_world_destroy(made), SUNDER_OK);
 }
 
-TEST(CStates, OfACopyGoOnWithTheSameBits) {
+/// Returns a world after 20 frames, to which a copy of a material was added.
+SunderWorld world_with_a_material(SunderMaterialDef& def, SunderMaterial& added) {
   const SunderWorld world = c_world("glass", 1);
-  SunderMaterial stone{}, added{};
-  ASSERT_EQ(sunder_world_material(world, "stone", &stone), SUNDER_OK);
-  SunderMaterialDef def;
-  ASSERT_EQ(sunder_world_material_def(world, stone, &def), SUNDER_OK);
-  ASSERT_EQ(sunder_world_add_material(world, &def, &added), SUNDER_OK);
+  SunderMaterial stone{};
+  EXPECT_EQ(sunder_world_material(world, "stone", &stone), SUNDER_OK);
+  EXPECT_EQ(sunder_world_material_def(world, stone, &def), SUNDER_OK);
+  EXPECT_EQ(sunder_world_add_material(world, &def, &added), SUNDER_OK);
   c_hash(world, 20);
+  return world;
+}
+
+TEST(CStates, OfACopyGoOnWithTheSameBits) {
+  SunderMaterialDef def;
+  SunderMaterial added{};
+  const SunderWorld world = world_with_a_material(def, added);
   SunderWorld copy{};
   ASSERT_EQ(sunder_world_copy(world, &copy), SUNDER_OK) << sunder_last_error();
   const std::string expected = c_hash(world, 20);
@@ -129,13 +136,9 @@ TEST(CStates, OfACopyGoOnWithTheSameBits) {
 }
 
 TEST(CStates, OfARestoredWorldGoOnWithTheSameBits) {
-  const SunderWorld world = c_world("glass", 1);
-  SunderMaterial stone{}, added{};
-  ASSERT_EQ(sunder_world_material(world, "stone", &stone), SUNDER_OK);
   SunderMaterialDef def;
-  ASSERT_EQ(sunder_world_material_def(world, stone, &def), SUNDER_OK);
-  ASSERT_EQ(sunder_world_add_material(world, &def, &added), SUNDER_OK);
-  c_hash(world, 20);
+  SunderMaterial added{};
+  const SunderWorld world = world_with_a_material(def, added);
   const void* bytes = nullptr;
   size_t size = 0;
   ASSERT_EQ(sunder_world_save(world, &bytes, &size), SUNDER_OK) << sunder_last_error();

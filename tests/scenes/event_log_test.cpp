@@ -33,7 +33,7 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What the files of kScene do not have: a ball on a rope that tears, and a post with anchors.
+/// A ball on a rope that tears, and a post with anchors, which the files of kScene do not have.
 constexpr const char* kMore =
     "[[ball]]\nname = \"the weight\"\nposition = [4, 1, 0]\nradius_m = 0.2\n"
     "[[joint]]\nkind = \"rope\"\na = \"the weight\"\nat = [4, 1, 0]\nto = [4, 2, 0]\n"

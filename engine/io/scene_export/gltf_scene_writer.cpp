@@ -39,7 +39,7 @@ struct Track {
   Accessor times = 0, values = 0;
 };
 
-/// What remains of a body once it is gone.
+/// The tracks and side data of a body that is gone.
 struct BodyRecord {
   std::uint64_t key = 0, parent_key = 0;
   std::uint32_t name = kNoName;

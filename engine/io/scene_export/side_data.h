@@ -1,4 +1,5 @@
-// What viewers of an exported run show beside its geometry: breaks and the time of each frame.
+// Data that viewers of an exported run show beside its geometry: breaks, and the time of each
+// frame.
 #pragma once
 
 #include <cstdint>

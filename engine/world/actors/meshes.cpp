@@ -13,15 +13,10 @@ constexpr std::size_t kFewest = 128;  // meshes, or requests, among which unneed
 
 }  // namespace
 
-MeshStore& Meshes::changeable() {
-  if (std::exchange(published_, false)) store_ = std::make_shared<MeshStore>(*store_);
-  return *store_;
-}
-
 MeshIndex Meshes::add(std::shared_ptr<const Mesh> mesh) {
-  changeable().push_back(std::move(mesh));
+  store_.push_back(std::move(mesh));
   ++kept_;
-  return MeshIndex(store_->size() - 1);
+  return MeshIndex(store_.size() - 1);
 }
 
 bool Meshes::is_needed(const Actors& actors, const Pending& one) {
@@ -36,28 +31,23 @@ void Meshes::tidy(const Actors& actors, std::span<const MeshIndex> others) {
   most_pending_ = 2 * pending_.size() + kFewest;
 }
 
-std::shared_ptr<const MeshStore> Meshes::publish() {
-  published_ = true;
-  return store_;
-}
-
 /// Frees the meshes that are unused now and were at the last search, one step ago: searches come in
 /// pairs. So the meshes of a frame live in the frame after it, between which a renderer
 /// interpolates.
 void Meshes::free_unused(const Actors& actors, std::span<const MeshIndex> others) {
-  std::vector<std::uint8_t> used(store_->size(), 0);
+  std::vector<std::uint8_t> used(store_.size(), 0);
   const auto use = [&](MeshIndex mesh) {
     if (!mesh.none() && mesh != kMeshPending) used[mesh.value] = 1;
   };
   for (const Actor& actor : actors) std::ranges::for_each(actor.meshes, use);
   std::ranges::for_each(others, use);
   std::vector<std::uint32_t> unused, released;
-  store_->for_each([&](std::size_t i) {
+  store_.for_each([&](std::size_t i) {
     if (used[i] != 0) return;
     const auto mesh = static_cast<std::uint32_t>(i);
     (std::ranges::binary_search(unused_, mesh) ? released : unused).push_back(mesh);
   });
-  changeable().release(released);
+  store_.release(released);
   kept_ -= released.size();
   unused_ = std::move(unused);
   searched_ = !searched_;

@@ -37,15 +37,16 @@ class Meshes {
   /// neither this step nor the one before needs, on `actors` or as `others`; these become null.
   void tidy(const Actors& actors, std::span<const MeshIndex> others);
   /// Returns all meshes for a frame, which do not change afterwards.
-  std::shared_ptr<const MeshStore> publish();
+  std::shared_ptr<const MeshStore> publish() const {
+    return std::make_shared<const MeshStore>(store_);
+  }
 
   static auto fields(auto& self) {
     return std::tie(self.store_, self.searched_, self.unused_, self.kept_, self.most_,
-                    self.published_, self.pending_, self.most_pending_);
+                    self.pending_, self.most_pending_);
   }
 
  private:
-  MeshStore& changeable();
   void free_unused(const Actors& actors, std::span<const MeshIndex> others);
   /// A convex whose mesh has been requested.
   struct Pending {
@@ -56,12 +57,11 @@ class Meshes {
   /// True if a request is of an actor that still needs it.
   static bool is_needed(const Actors& actors, const Pending& one);
 
-  std::shared_ptr<MeshStore> store_ = std::make_shared<MeshStore>();
+  MeshStore store_;
   bool searched_ = false;              ///< True after the first search of a pair.
   std::vector<std::uint32_t> unused_;  ///< Meshes that the last search found unused; ascending.
   std::size_t kept_ = 0;               ///< Meshes that are not null.
   std::size_t most_ = 0;               ///< Number of them from which unused ones are sought.
-  bool published_ = false;             ///< A frame shares the store: copy before a change.
   std::vector<Pending> pending_;       ///< Requests since the last draw().
   std::size_t most_pending_ = 0;       ///< Number of them from which unneeded ones are sought.
 };

@@ -106,7 +106,7 @@ class PythonWorld {
   /// Returns a world in the same state, which shares the list of warnings.
   std::unique_ptr<PythonWorld> copy() {
     World world = unlocked([](World& of) { return of.copy(); });
-    return std::unique_ptr<PythonWorld>(new PythonWorld(std::move(world), materials_, warnings_));
+    return std::unique_ptr<PythonWorld>(new PythonWorld(std::move(world), warnings_));
   }
   py::bytes save() {
     const auto saved = unlocked([](World& of) { return scenes::save_world(of); });
@@ -117,10 +117,8 @@ class PythonWorld {
     scenes::SimulationOptions options;
     options.threads = threads;
     World world = scenes::restore_world(std::as_bytes(std::span(text)), options, "restore()");
-    std::vector<std::string> materials;
-    for (const Material& material : world.materials()) materials.push_back(material.name);
-    return std::unique_ptr<PythonWorld>(new PythonWorld(
-        std::move(world), std::move(materials), std::make_shared<std::vector<std::string>>()));
+    return std::unique_ptr<PythonWorld>(
+        new PythonWorld(std::move(world), std::make_shared<std::vector<std::string>>()));
   }
   Bodies bodies() {
     if (!arrays_) arrays_ = std::make_shared<const BodyArrays>(ask().bodies());
@@ -136,9 +134,8 @@ class PythonWorld {
   const std::vector<std::string>& warnings() const { return *warnings_; }
 
  private:
-  PythonWorld(World world, std::vector<std::string> materials,
-              std::shared_ptr<std::vector<std::string>> warnings)
-      : materials_(std::move(materials)),
+  PythonWorld(World world, std::shared_ptr<std::vector<std::string>> warnings)
+      : materials_(names_of(world.materials())),
         warnings_(std::move(warnings)),
         world_(std::move(world)) {}
 
