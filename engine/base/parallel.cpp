@@ -15,21 +15,11 @@ std::atomic<int> thread_count = 0;  // process-wide; 0 until set
 thread_local int own_count = 0;     // of a ThreadScope; 0: none
 thread_local bool is_busy = false;  // in a parallel loop: nested loops are serial
 
-/// Yields the core to its other hardware thread in a spin loop.
-void spin_pause() {
-#if defined(__x86_64__)
-  __builtin_ia32_pause();
-#endif
-}
-
 class ThreadTeam {
  public:
   void run(void (*call)(const void*), const void* work);
 
  private:
-  // Number of polls before a waiting thread sleeps: about the time that waking it takes.
-  static constexpr int kMaxSpins = 1000;
-
   void start_helpers(int helpers);
   void run_worker(int rank);
   std::uint32_t wait_for_new_epoch(std::uint32_t epoch) const;

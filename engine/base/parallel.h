@@ -35,6 +35,19 @@ class ThreadScope {
 /// Returns true if other threads could take part in a loop that this thread starts now.
 bool can_run_parallel();
 
+/// Number of spin_pause() after which a waiting thread should sleep: they take about as long as
+/// waking it.
+inline constexpr int kMaxSpins = 1000;
+
+/// Yields the core to its other hardware thread in a spin loop.
+inline void spin_pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
 namespace detail {
 void run_on_free_threads(void (*call)(const void*), const void* work);
 }  // namespace detail

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -70,11 +69,13 @@ void run_stages(const std::vector<Stage>& stages, const Work& work) {
         for (std::uint32_t block;
              (block = first + next.fetch_add(1, std::memory_order_relaxed)) < end;) {
           run(stages[s], block);
-          done[s].value.fetch_add(1, std::memory_order_release);
+          if (done[s].value.fetch_add(1, std::memory_order_release) + 1 == blocks)
+            done[s].value.notify_all();
         }
       }
-      for (int spins = 0; done[s].value.load(std::memory_order_acquire) < blocks; ++spins)
-        if (spins > 200) std::this_thread::yield();
+      int spins = 0;
+      for (std::uint32_t now; (now = done[s].value.load(std::memory_order_acquire)) < blocks;)
+        ++spins < kMaxSpins ? spin_pause() : done[s].value.wait(now, std::memory_order_acquire);
     }
   });
 }
