@@ -85,6 +85,7 @@ class Surface:
         points = points @ world[:3, :3].T + world[:3, 3]
         uvs = (self.document.array(attributes["TEXCOORD_0"]).astype(np.float64)
                if "TEXCOORD_0" in attributes else np.zeros((len(points), 2)))
+        uvs = self.transformed(uvs, primitive.get("material"))
         indices = (self.document.array(primitive["indices"])[:, 0]
                    if "indices" in primitive else np.arange(len(points)))
         triangles = indices.astype(int).reshape(-1, 3)
@@ -93,6 +94,18 @@ class Surface:
         self.corners.append(points[triangles])
         self.uvs.append(uvs[triangles])
         self.numbers.append(np.full(len(triangles), primitive.get("material", -1)))
+
+    def transformed(self, uvs, material):
+        """Returns texture coordinates by the KHR_texture_transform of a material's colour image."""
+        if material is None:
+            return uvs
+        base = self.document.json["materials"][material].get("pbrMetallicRoughness", {})
+        given = base.get("baseColorTexture", {}).get("extensions", {}).get("KHR_texture_transform")
+        if given is None:
+            return uvs
+        c, s = np.cos(given.get("rotation", 0)), np.sin(given.get("rotation", 0))
+        turn = np.array([[c, s], [-s, c]])  # counter-clockwise in the image, where v points down
+        return uvs * given.get("scale", [1, 1]) @ turn.T + given.get("offset", [0, 0])
 
     def areas(self):
         return 0.5 * np.linalg.norm(self.crossed(), axis=1)

@@ -56,7 +56,7 @@ class RoundTrip(unittest.TestCase):
         self.assertGreater(comparison.compared, 500)
 
     def test_of_boxes_and_a_sphere(self):
-        for name in ("small_box", "mirrored_box", "ball"):
+        for name in ("small_box", "mirrored_box", "transformed_box", "ball"):
             given = self.write(name + ".glb", getattr(textured_glb, name)())
             for pattern in ("voronoi:20", "web:4x7"):
                 for walls in ("remove", "keep"):
@@ -81,6 +81,15 @@ class RoundTrip(unittest.TestCase):
                  for image in material.images if image}
         self.assertEqual(len(pictures), 4)
         self.assertEqual(again, pictures)
+
+    def test_names_images_that_cannot_be_kept(self):
+        for options, message in (({"webp": True}, "an image neither PNG nor JPEG"),
+                                 ({"other": 0.5}, "an image with a transform of its own")):
+            given = self.write("box.glb", textured_glb.transformed_box(**options))
+            run = subprocess.run([PROGRAM, "fracture", given, "--quiet", "--pattern", "grid:2"],
+                                 capture_output=True, text=True)
+            self.assertEqual(run.returncode, 0)
+            self.assertIn(message, run.stderr)
 
     def test_fails_for_files_that_differ(self):
         given = self.write("box.glb", textured_glb.small_box())

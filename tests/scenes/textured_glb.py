@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes GLB files with textures, several materials, mirrored and scaled nodes, without other files.
 
-Usage: textured_glb.py small_box|mirrored_box|ball X.glb
+Usage: textured_glb.py small_box|mirrored_box|transformed_box|ball X.glb
 """
 import json
 import math
@@ -175,6 +175,25 @@ def mirrored_box():
                 rotation=[0, math.sin(0.4), 0, math.cos(0.4)])
     outer = writer.add_to("nodes", {"children": [inner], "translation": [3, 2, -1]})
     return writer.bytes([outer])
+
+
+def transformed_box(other=0.25, webp=False):
+    """Returns a box whose images are moved, turned and scaled (KHR_texture_transform). `other`: offset
+    of the image of normals. `webp`: the second material has an image by an extension alone."""
+    writer = Writer()
+    kinds = materials(writer)
+    tiles = writer.json["materials"][kinds[2]]
+    uses, relief = tiles["pbrMetallicRoughness"], tiles["normalTexture"]
+    for use, offset in ((uses["baseColorTexture"], 0.25), (uses["metallicRoughnessTexture"], 0.25),
+                        (relief, other)):
+        use["extensions"] = {"KHR_texture_transform": {
+            "offset": [offset, -0.5], "rotation": 0.3, "scale": [2, 3]}}
+    writer.json["extensionsUsed"] = ["KHR_texture_transform"]
+    if webp:
+        texture = writer.add_to("textures", {"extensions": {"EXT_texture_webp": {"source": 0}}})
+        writer.json["materials"][kinds[1]]["pbrMetallicRoughness"]["baseColorTexture"] = {
+            "index": texture}
+    return writer.bytes([box(writer, kinds)])
 
 
 def ball():
