@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Pieces of `sunder fracture` have the materials, images and texture coordinates of the GLB that they
-came from, by a reader that shares no code with the program."""
+came from, by readers that share no code with the program: one in NumPy, and three.js."""
+import base64
 import json
 import os
 import struct
@@ -22,6 +23,11 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import check_textures  # noqa: E402
 from check_glb import Document  # noqa: E402
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "view"))
+import chromium  # noqa: E402
+
+THREE = Path("/usr/share/javascript/three")
+LOADER = THREE / "examples/js/loaders/GLTFLoader.js"
 PROGRAM = os.environ["SUNDER_PROGRAM"]
 
 
@@ -33,7 +39,7 @@ def compare(given, made):
     return comparison
 
 
-class RoundTrip(unittest.TestCase):
+class Exchange(unittest.TestCase):
     def setUp(self):
         made = tempfile.TemporaryDirectory()
         self.addCleanup(made.cleanup)
@@ -49,6 +55,8 @@ class RoundTrip(unittest.TestCase):
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         return self.folder / output
 
+
+class RoundTrip(Exchange):
     def expect_equal(self, given, made):
         comparison = compare(given, made)
         self.assertEqual(comparison.messages, [])
@@ -142,6 +150,64 @@ class RoundTrip(unittest.TestCase):
         return self.write("changed.glb", struct.pack(
             "<4sIIII", b"glTF", 2, 28 + len(text) + len(binary), len(text), 0x4e4f534a) + text +
             struct.pack("<II", len(binary), 0x004e4942) + binary)
+
+
+@unittest.skipUnless(chromium.find() and LOADER.exists(),
+                     "Chromium or three.js is missing; install chromium and libjs-three")
+class Picture(Exchange):
+    """three.js draws the pieces as it draws the mesh that they came from."""
+
+    SCRIPT = """
+      const renderer = new THREE.WebGLRenderer({preserveDrawingBuffer: true});
+      renderer.setSize(400, 400);
+      const camera = new THREE.OrthographicCamera(-2, 2, 2, -2, 0.1, 20);
+      function draw(file, side) {
+        window.pixels = null;
+        const bytes = Uint8Array.from(atob(file), letter => letter.charCodeAt(0));
+        new THREE.GLTFLoader().parse(bytes.buffer, '', ({scene}) => {
+          const shown = new THREE.Scene();
+          shown.add(scene);
+          scene.traverse(mesh => {
+            if (!mesh.isMesh) return;
+            const {map, color} = mesh.material;
+            mesh.material = new THREE.MeshBasicMaterial({map, color});
+          });
+          camera.position.set(4 * side, 3 * side, 5 * side);
+          camera.lookAt(0, 0, 0);
+          renderer.render(shown, camera);
+          const gl = renderer.getContext(), pixels = new Uint8Array(4 * 400 * 400);
+          gl.readPixels(0, 0, 400, 400, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+          window.pixels = pixels;
+        }, error => { window.pixels = 'failed: ' + error; });
+      }
+      function isDone() { return window.pixels !== null; }
+      function share(isWanted) {
+        let count = 0;
+        for (let at = 0; at < pixels.length; at += 4) if (isWanted(at)) ++count;
+        return 4 * count / pixels.length;
+      }"""
+
+    def test_is_that_of_the_mesh(self):
+        # three.js r111 turns images after it has scaled them: the scales have to be equal.
+        files = {"small": textured_glb.small_box(),
+                 "transformed": textured_glb.transformed_box(scale=(2, 2))}
+        page = self.write("x.html", b"<script>" + (THREE / "build/three.min.js").read_bytes() +
+                          b"</script><script>" + LOADER.read_bytes() + b"</script><script>" +
+                          self.SCRIPT.encode() + b"</script>")
+        with chromium.Chromium(400, 400) as browser:
+            browser.open(page)
+            browser.wait("typeof draw === 'function'")
+            for name, data in files.items():
+                pieces = self.fracture(self.write(name + ".glb", data), "--pattern", "voronoi:12")
+                for side in (1, -1):
+                    for file in (data, pieces.read_bytes()):
+                        browser.evaluate("window.before = window.pixels; "
+                                         f"draw('{base64.b64encode(file).decode()}', {side}); 0")
+                        browser.wait("isDone()")
+                    self.assertGreater(browser.evaluate("share(at => pixels[at] > 0)"), 0.3, name)
+                    different = browser.evaluate(
+                        "share(at => [0, 1, 2].some(c => Math.abs(before[at + c] - pixels[at + c]) > 30))")
+                    self.assertLess(different, 0.001, name)
 
 
 if __name__ == "__main__":

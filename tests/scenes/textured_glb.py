@@ -177,7 +177,7 @@ def mirrored_box():
     return writer.bytes([outer])
 
 
-def transformed_box(other=0.25, webp=False):
+def transformed_box(other=0.25, webp=False, scale=(2, 3)):
     """Returns a box whose images are moved, turned and scaled (KHR_texture_transform). `other`: offset
     of the image of normals. `webp`: the second material has an image by an extension alone."""
     writer = Writer()
@@ -187,7 +187,7 @@ def transformed_box(other=0.25, webp=False):
     for use, offset in ((uses["baseColorTexture"], 0.25), (uses["metallicRoughnessTexture"], 0.25),
                         (relief, other)):
         use["extensions"] = {"KHR_texture_transform": {
-            "offset": [offset, -0.5], "rotation": 0.3, "scale": [2, 3]}}
+            "offset": [offset, -0.5], "rotation": 0.3, "scale": list(scale)}}
     writer.json["extensionsUsed"] = ["KHR_texture_transform"]
     if webp:
         texture = writer.add_to("textures", {"extensions": {"EXT_texture_webp": {"source": 0}}})
