@@ -27,7 +27,8 @@ class Document:
     """A GLB: its JSON, and its accessors as arrays."""
 
     def __init__(self, path):
-        data = open(path, "rb").read()
+        with open(path, "rb") as file:
+            data = file.read()
         magic, version, length = struct.unpack_from("<4sII", data)
         assert magic == b"glTF" and version == 2 and length == len(data), "not a whole GLB"
         json_length, kind = struct.unpack_from("<I4s", data, 12)

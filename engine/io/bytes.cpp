@@ -20,6 +20,15 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   return bytes;
 }
 
+bool begins_with(const std::filesystem::path& path, std::string_view start) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::string first(start.size(), '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(first.data(), static_cast<std::streamsize>(first.size()));
+  return in && first == start;
+}
+
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }

@@ -117,6 +117,8 @@ class ByteReader {
 
 /// Returns the content of a file; throws InputError if it cannot be read.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
+/// True if a regular file begins with `start`; false also if it cannot be read.
+bool begins_with(const std::filesystem::path& path, std::string_view start);
 /// Returns the XXH3 hash of bytes; equal on every machine.
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
 /// Returns the path of a file after following symbolic links, dangling ones included.

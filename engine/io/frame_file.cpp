@@ -173,6 +173,10 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
   write_file(path, file.bytes);
 }
 
+bool is_stored_frame(const std::filesystem::path& path) {
+  return begins_with(path, {kMagic, sizeof kMagic - 1});  // without the version
+}
+
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::vector<std::byte> file = read_file(path);

@@ -37,7 +37,8 @@ void main() {
 #endif
   float grazing = 1.0 - facing;
   float fresnel = grazing * grazing;
-  fresnel = 0.07 + 0.93 * fresnel * fresnel * grazing;
+  // A pane has two faces, each of which reflects 4 % of what is straight before it (index 1.5).
+  fresnel = mix(0.04, 1.0, fresnel * fresnel * grazing);
 
   vec3 mirrored = reflect(view, n);
   float sunward = dot(mirrored, sun_rest);

@@ -12,10 +12,12 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/io/file_ending.h"
 #include "engine/io/frames_ahead.h"
 #include "engine/io/recording/recording.h"
 #include "engine/io/scene_export/gltf_scene_writer.h"
 #include "engine/io/scene_export/mesh_sequence_writer.h"
+#include "scenes/app/input_kind.h"
 #include "scenes/app/run.h"
 
 namespace sunder::app {
@@ -56,7 +58,16 @@ ExportInput open_scene(const ExportOptions& options) {
   return input;
 }
 
-bool is_glb(const ExportOptions& options) { return options.output.ends_with(".glb"); }
+ExportInput open_run(const ExportOptions& options) {
+  const InputKind kind = input_kind(options.scene);
+  if (kind == InputKind::kRecording) return open_recording(options);
+  if (kind == InputKind::kScene) return open_scene(options);
+  throw InputError(options.scene +
+                   (kind == InputKind::kFrame ? ": is a single frame" : ": has been exported") +
+                   "; give a scene or a recording");
+}
+
+bool is_glb(const ExportOptions& options) { return has_ending(options.output, ".glb"); }
 
 /// Throws InputError if the output is neither a GLB nor a folder, or options are for the other.
 void check_output(const ExportOptions& options) {
@@ -175,8 +186,7 @@ std::unique_ptr<Exporter> make_exporter(const ExportOptions& options, const std:
 }  // namespace
 
 WrittenRun write_run(const ExportOptions& options, const std::string& command) {
-  const ExportInput input =
-      options.scene.ends_with(".take") ? open_recording(options) : open_scene(options);
+  const ExportInput input = open_run(options);
   const std::unique_ptr<Exporter> exporter = make_exporter(options, input.name);
   Progress progress(command + " " + input.name, input.last, options.quiet);
   FramesUntil frames(*input.source, input.last);

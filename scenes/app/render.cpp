@@ -22,6 +22,7 @@
 #include "render/sinks.h"
 #include "render/view_mode.h"
 #include "scenes/app/arguments.h"
+#include "scenes/app/input_kind.h"
 #include "scenes/app/run.h"
 #include "scenes/app/run_notes.h"
 #include "scenes/file/view.h"
@@ -188,11 +189,14 @@ RenderInput open_frame(const RenderOptions& options) {
 RenderInput open(const RenderOptions& options, const Span& span, bool from_start,
                  StateRecorder& record) {
   RenderInput input;
-  input.is_recorded = has_ending(options.scene, ".frame") || has_ending(options.scene, ".take");
+  const InputKind kind = input_kind(options.scene);
+  if (kind == InputKind::kGlb)
+    throw InputError(options.scene + ": is an exported run; show it by sunder view");
+  input.is_recorded = kind != InputKind::kScene;
   if (input.is_recorded) check_recorded(options);
-  if (has_ending(options.scene, ".frame")) return open_frame(options);
+  if (kind == InputKind::kFrame) return open_frame(options);
   int last = 0;
-  if (input.is_recorded) {
+  if (kind == InputKind::kRecording) {
     auto take = std::make_unique<RecordingReader>(options.scene);
     input.take = take.get();
     last = static_cast<int>(input.take->frames()) - 1;

@@ -5,7 +5,9 @@
 #include "engine/base/check.h"
 #include "engine/io/bytes.h"
 #include "engine/io/figures.h"
+#include "engine/io/file_ending.h"
 #include "scenes/app/export.h"
+#include "scenes/app/input_kind.h"
 #include "scenes/report/view_page.h"
 
 namespace sunder::app {
@@ -29,12 +31,12 @@ class TemporaryFile {
 
 /// Throws InputError for what can be told before the run.
 void check_options(const ViewOptions& options) {
-  if (!options.output.ends_with(".html"))
+  if (!has_ending(options.output, ".html"))
     throw InputError("-o " + options.output + ": expected a name that ends in .html");
   if (std::filesystem::is_directory(options.output))
     throw InputError("-o " + options.output + ": is a folder; give the name of a file");
   scenes::check_three(options.three);
-  if (!options.scene.ends_with(".glb")) return;
+  if (input_kind(options.scene) != InputKind::kGlb) return;
   if (options.preset_given || !options.load.set.empty() || options.frames >= 0) {
     throw InputError(options.scene + " has been exported: remove --preset, --set and --frames");
   }
@@ -58,7 +60,7 @@ int write_page(const ViewOptions& options, const scenes::ViewPage& page, const W
 int view(const ViewOptions& options) {
   options.apply();
   check_options(options);
-  if (options.scene.ends_with(".glb")) {
+  if (input_kind(options.scene) == InputKind::kGlb) {
     const std::filesystem::path run = options.scene;
     return write_page(options, {run.stem().string(), run, options.three}, {});
   }

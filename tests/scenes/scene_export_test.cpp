@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/figures.h"
+#include "engine/io/frame_file.h"
 #include "engine/io/recording/recording.h"
 #include "tests/scenes/program.h"
 #include "tests/scenes/run_tables.h"
@@ -103,6 +104,67 @@ TEST_F(SceneExport, HasThePosesOfTheRunForAnIndependentReader) {
     EXPECT_NE(said.find("poses"), std::string::npos) << said;
     EXPECT_EQ(said.find("\n0 pieces of debris"), std::string::npos) << said;
   }
+}
+
+TEST_F(SceneExport, HasTheTexturesOfAMeshFileForAnIndependentReader) {
+  if (std::string(SUNDER_NUMPY_PYTHON).empty()) {
+    GTEST_SKIP() << "no Python with NumPy was found when the build was configured; install "
+                    "python3-numpy";
+  }
+  const std::string mesh = folder_ / "box.glb", scene = folder_ / "box.toml",
+                    take = folder_ / "box.take", glb = folder_ / "X.GLB", poses = folder_ / "poses",
+                    said = folder_ / "said.txt";
+  const std::string python = "PYTHONDONTWRITEBYTECODE=1 " SUNDER_NUMPY_PYTHON " ";
+  ASSERT_EQ(
+      std::system((python + SUNDER_ROOT "/tests/scenes/textured_glb.py small_box " + mesh).c_str()),
+      0);
+  std::ofstream(scene) << "[scene]\ndescription = \"a box\"\nduration_s = 0.5\n"
+                          "[[body]]\nname = \"box\"\nmesh = \"box.glb\"\nmaterial = \"brick\"\n"
+                          "position = [0.5, 1.5, -2]\n"
+                          "[[script.shot]]\ntime_s = 0.1\nfrom = [0.5, 1.5, 4]\n"
+                          "at = [0.5, 1.5, 0]\nspeed_m_s = 60\nradius_m = 0.3\n";
+  const Outcome run = sunder("simulate " + scene + " --quiet --take " + take);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  RecordingReader reader(take);
+  RunTables tables({});
+  while (const FramePtr frame = reader.next()) tables.take(frame);
+  EXPECT_GT(tables.bodies(), 20u);
+  tables.write(poses, folder_ / "boxes", folder_ / "chips");
+  const Outcome outcome = sunder("export " + take + " --quiet -o " + glb);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const int code = std::system((python + SUNDER_ROOT "/tests/check_textures.py " + mesh + " " +
+                                glb + " --poses " + poses +
+                                " --root box --metres 1e-4 --area 0.05 > " + said + " 2>&1")
+                                   .c_str());
+  EXPECT_EQ(code, 0) << bytes_of(said);
+  EXPECT_NE(bytes_of(said).find("points"), std::string::npos) << bytes_of(said);
+}
+
+TEST_F(SceneExport, RecognizesARunByItsContentWhateverItsName) {
+  for (const char* name : {"wall.rec", "wall.toml", "wall.frame", "WALL.TAKE"}) {
+    const std::string renamed = folder_ / name;
+    fs::copy_file(recording(), renamed);
+    for (const char* command : {"export ", "render --size 64x36 --frames 30 "}) {
+      const std::string out = folder_ / (command[0] == 'e' ? "x.glb" : "x.png");
+      const Outcome outcome = sunder(command + renamed + " --quiet -o " + out);
+      EXPECT_EQ(outcome.exit_code, 0) << command << name << "\n" << outcome.err;
+      EXPECT_TRUE(fs::remove(out)) << command << name;
+    }
+  }
+  const FramePtr frame = RecordingReader(recording()).next();
+  write_frame(folder_ / "first.take", *frame);
+  EXPECT_EQ(sunder("render --size 64x36 --quiet " + (folder_ / "first.take") + " -o " +
+                   (folder_ / "x.png"))
+                .exit_code,
+            0);
+  expect_refused("first.take -o x.glb", 2, "first.take: is a single frame");
+  EXPECT_EQ(sunder("export " + recording() + " --quiet -o " + (folder_ / "run")).exit_code, 2);
+  EXPECT_EQ(sunder("export " + recording() + " --quiet -o " + (folder_ / "X.GLB")).exit_code, 0);
+  fs::rename(folder_ / "X.GLB", folder_ / "run.toml");
+  expect_refused("run.toml -o y.glb", 2, "run.toml: has been exported");
+  std::ofstream(folder_ / "text.take") << "[scene]";
+  expect_refused("text.take -o y.glb", 2, "text.take: not a recording");
+  expect_refused("absent.take -o y.glb", 2, "absent.take: cannot be read");
 }
 
 TEST_F(SceneExport, OfARecordingAndOfItsSceneDifferOnlyAsThePosesDo) {

@@ -11,16 +11,18 @@ import chromium
 
 PROGRAM = os.environ["SUNDER_PROGRAM"]
 THREE = Path("/usr/share/javascript/three")
-SCENE = "glass"  # breaks within two seconds
 
 
-class Player(unittest.TestCase):
+class Page(unittest.TestCase):
+    """A page in a browser; `arguments` say of which run."""
+    arguments = []
+
     @classmethod
     def setUpClass(cls):
         cls.made = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.made.cleanup)
         cls.page = Path(cls.made.name, "x.html")
-        subprocess.run([PROGRAM, "view", SCENE, "--frames", "120", "-o", cls.page], check=True,
+        subprocess.run([PROGRAM, "view", *cls.arguments, "-o", cls.page], check=True,
                        capture_output=True)
         cls.browser = cls.enterClassContext(chromium.Chromium(960, 540))
 
@@ -33,13 +35,13 @@ class Player(unittest.TestCase):
     def data(self, name):
         return float(self.browser.evaluate(f"document.body.dataset.{name}"))
 
-    def pieces_at(self, time):
-        self.browser.evaluate(f"player.seek({time})")
-        return self.data("pieces")
-
     def tearDown(self):
         wrong = [line for line in self.browser.console() if line[0] not in ("log", "info")]
         self.assertEqual(wrong, [])
+
+
+class Player(Page):
+    arguments = ["glass", "--frames", "120"]  # breaks within two seconds
 
     def test_plays_from_start_to_end_and_reports_its_frame_time(self):
         self.open()
@@ -51,6 +53,10 @@ class Player(unittest.TestCase):
         self.assertRegex(lines[0], r"\d ms a frame.*opened in \d+ ms")
         self.assertRegex(self.browser.evaluate("document.getElementById('cost').textContent"),
                          r"\d ms a frame")
+
+    def pieces_at(self, time):
+        self.browser.evaluate(f"player.seek({time})")
+        return self.data("pieces")
 
     def test_shows_the_pieces_of_a_time_in_any_order(self):
         self.open("#t=0")
@@ -106,6 +112,52 @@ class Player(unittest.TestCase):
         self.assertGreaterEqual(self.browser.evaluate(
             "Math.min(...['play', 'back', 'next', 'home'].map("
             "id => document.getElementById(id).getBoundingClientRect().height))"), 40)
+
+    def test_times_frames_without_the_display(self):
+        self.open("#t=0")
+        self.browser.evaluate("player.timeFrames(0, 4).then(time => { window.timed = time; }); 0")
+        self.browser.wait("window.timed > 0")
+
+
+class MovingPicture(Page):
+    """What is left out while the picture moves is hardly missed."""
+    arguments = ["brick_wall", "--frames", "90"]
+
+    def draw(self, is_playing):
+        """Draws a frame. Returns the number of its triangles."""
+        return self.browser.evaluate("""(() => {
+          const {stage} = player, {gl, canvas: {width, height}} = stage;
+          stage.isDirty = stage.shadowsDirty = true;
+          stage.draw(%s);
+          window.before = window.pixels;
+          window.pixels = new Uint8Array(4 * width * height);
+          gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, window.pixels);
+          return stage.batches.reduce((sum, batch) => sum + batch.mesh.geometry.drawRange.count, 0) / 3;
+        })()""" % str(is_playing).lower())
+
+    def share_of_different_pixels(self):
+        """Returns the share of pixels that differ between the last two frames."""
+        return self.browser.evaluate("""(() => {
+          const {before, pixels} = window;
+          let different = 0;
+          for (let at = 0; at < pixels.length; at += 4) {
+            if ([0, 1, 2].some(c => Math.abs(before[at + c] - pixels[at + c]) > 12)) ++different;
+          }
+          return 4 * different / pixels.length;
+        })()""")
+
+    def test_is_nearly_that_of_all_triangles(self):
+        self.open("#t=0")
+        # However few triangles there are, those that others hide are found.
+        self.browser.evaluate("player.frame = () => {}; player.stage.crowd = 0; 0")
+        for quality in (0, 2):
+            self.browser.evaluate(f"player.stage.setQuality({quality}); 0")
+            for frame in range(12):
+                self.browser.evaluate(f"player.stage.setTime({1 + frame / 60}); 0")
+                drawn = self.draw(True)
+            self.assertTrue(self.browser.evaluate("player.stage.grid.image !== null"))
+            self.assertLess(drawn, 0.8 * self.draw(False), quality)
+            self.assertLess(self.share_of_different_pixels(), 0.003, quality)
 
 
 if __name__ == "__main__":

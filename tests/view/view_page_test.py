@@ -49,7 +49,10 @@ class Pages(unittest.TestCase):
     def test_plays_a_recording(self):
         subprocess.run([PROGRAM, "simulate", "stack", "--frames", "5", "--take", "x.take"],
                        cwd=self.folder, check=True, capture_output=True)
-        self.assertIn('id="run"', self.write_page("x.take"))
+        page = self.write_page("x.take")
+        self.assertIn('id="run"', page)
+        (self.folder / "x.take").rename(self.folder / "x.rec")  # is recognised by its content
+        self.assertEqual(self.write_page("x.rec"), page)
 
     def test_is_not_replaced_if_the_input_is_wrong(self):
         (self.folder / "text.glb").write_text("text")

@@ -79,16 +79,18 @@ class GltfScene {
     const json& materials = data_.array(data_.document(), "materials");
     for (const json& primitive : data_.array(mesh, "primitives")) {
       std::string material;
+      GltfMaterials::UvTransform uv_transform = GltfMaterials::UvTransform::Identity();
       RawMesh::Group& group = mesh_.groups.emplace_back();
       if (primitive.is_object() && primitive.contains("material")) {
         const json& used = materials[data_.index(primitive, "material", materials.size())];
         material = name_of(used);
         group.appearance = appearances_.of(used);
+        uv_transform = appearances_.uv_transform(used);
       }
       for (const std::string& name : {node_name, name_of(mesh), material}) {
         if (!name.empty()) group.names.push_back(name);
       }
-      add_primitive(primitive, matrix);
+      add_primitive(primitive, matrix, uv_transform);
     }
   }
 
@@ -97,7 +99,8 @@ class GltfScene {
     return named ? thing["name"].get<std::string>() : std::string();
   }
 
-  void add_primitive(const json& primitive, const Eigen::Matrix4d& matrix) {
+  void add_primitive(const json& primitive, const Eigen::Matrix4d& matrix,
+                     const GltfMaterials::UvTransform& uv_transform) {
     const std::size_t mode = data_.index(primitive, "mode", 7, 4);
     if (mode < 4) return;  // points and lines
     const json& attributes = data_.object(primitive, "attributes");
@@ -133,7 +136,8 @@ class GltfScene {
           mesh_.corner_normals.back() = normal.normalized().cast<float>();
         }
         if (uvs.size() == 2 * count) {
-          mesh_.corner_uvs.back() = Eigen::Map<const Vec2>(uvs.data() + 2 * v).cast<float>();
+          const Vec2 uv = Eigen::Map<const Vec2>(uvs.data() + 2 * v);
+          mesh_.corner_uvs.back() = (uv_transform * uv.homogeneous()).cast<float>();
         }
       }
     }

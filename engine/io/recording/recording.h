@@ -30,6 +30,9 @@ class RecordingWriter final : public FrameSink {
   std::unique_ptr<Recording> recording_;
 };
 
+/// True if a file begins as recordings of all versions do.
+bool is_recording(const std::filesystem::path& path);
+
 /// A source that plays a recording. A truncated or corrupt file is played as far as it can be read,
 /// and damage() describes the fault.
 class RecordingReader final : public FrameSource {

@@ -11,6 +11,10 @@
 
 namespace sunder {
 
+bool is_recording(const std::filesystem::path& path) {
+  return begins_with(path, {kRecordingMagic, kRecordingMagicLength});
+}
+
 /// State of a recording being played; implements the members of RecordingReader.
 class RecordingReader::Playback {
  public:

@@ -6,6 +6,7 @@
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2];
 const kStageColors = ['#e8a87c', '#85b8cb', '#c9b458', '#b08ea2', '#7fb685', '#d98880', '#8e9aaf'];
 const kSlowFrame_ms = 40;  // a lower quality is chosen above
+const kJudgedFrames = 12;  // number of frames whose median is judged
 const kStill_ms = 300;     // time after which a picture that does not move is drawn by the best quality
 const kMedianOf = 60;      // number of frames that the shown time is the median of
 
@@ -161,7 +162,7 @@ class Player {
     this.speed = 1;
     this.isPlaying = false;
     this.intervals = [];
-    this.slowFrames = 0;
+    this.judged = [];  // intervals at the present quality
     this.addCamera();
     this.addControls();
     this.addKeys();
@@ -389,15 +390,34 @@ class Player {
                 `opened in ${this.openTime.toFixed(0)} ms`);
   }
 
+  // Resolves to the median time in ms of drawing a frame of the run at a quality, each finished before the
+  // next: without the intervals of the display. For the console: await player.timeFrames()
+  async timeFrames(quality = 0, framesPerSecond = 30) {
+    const {stage} = this, times = [];
+    this.pause();
+    stage.setQuality(quality);
+    for (let time = 0; time < this.duration; time += 1 / framesPerSecond) {
+      await new Promise(requestAnimationFrame);
+      const start = now();
+      this.seek(time);
+      stage.isDirty = true;
+      stage.draw(true);
+      stage.finish();
+      times.push(now() - start);
+    }
+    return median(times);
+  }
+
   // Shows the time from frame to frame, and lowers the quality where frames take long.
   measure(interval) {
     this.played.push(interval);
     this.intervals.push(interval);
     if (this.intervals.length > kMedianOf) this.intervals.shift();
-    this.slowFrames = interval > kSlowFrame_ms ? this.slowFrames + 1 : 0;
-    if (this.slowFrames > 20 && this.quality > 0) {
+    this.judged.push(interval);
+    if (this.judged.length > kJudgedFrames) this.judged.shift();
+    if (this.judged.length === kJudgedFrames && median(this.judged) > kSlowFrame_ms && this.quality > 0) {
       --this.quality;
-      this.slowFrames = 0;
+      this.judged = [];
     }
     if (this.intervals.length % 15 !== 0 || now() - (this.costTime || 0) < 500) return;
     this.costTime = now();

@@ -30,27 +30,34 @@ const shaders = (() => {
                  step(0.0031308, c));
     }`;
 
+  // Without SHADOWS, everything is in the sun: a renderer on the processor takes long for each varying.
   const shadow = `
+    #ifdef SHADOWS
+    varying vec3 shadowAt;
     uniform sampler2D shadowMap;
-    uniform float shadowTexel;  // 0: there are no shadows
+    uniform float shadowTexel;
     float sunlit(vec3 at) {
-      if (shadowTexel == 0.0 || any(greaterThan(abs(at - 0.5), vec3(0.5)))) return 1.0;
+      if (any(greaterThan(abs(at - 0.5), vec3(0.5)))) return 1.0;
       vec4 depth = vec4(texture2D(shadowMap, at.xy + shadowTexel * vec2(0.4, 0.9)).r,
                         texture2D(shadowMap, at.xy + shadowTexel * vec2(-0.9, 0.4)).r,
                         texture2D(shadowMap, at.xy + shadowTexel * vec2(-0.4, -0.9)).r,
                         texture2D(shadowMap, at.xy + shadowTexel * vec2(0.9, -0.4)).r);
       return dot(step(vec4(at.z), depth), vec4(0.25));
-    }`;
+    }
+    #endif`;
 
   // Most bodies are MATT: their colour in the sun and in the shade is computed at vertices, which is
-  // exact on flat faces, and the pixel has their mixture. Others are lit at pixels.
+  // exact on flat faces, and the pixel has their mixture. Others get light in the sun and in the shade.
   const bodyVertex = `${common}
     attribute vec4 tint;    // square roots of the colour, opacity
     attribute vec4 finish;  // roughness, metallic
+    varying vec3 sunny;
+    varying vec2 place;
+    #ifdef SHADOWS
     uniform mat4 shadowMatrix;
     uniform float normalOffset;
-    varying vec3 sunny, shady, shadowAt;  // MATT: on the screen; otherwise light from the sun, from around
-    varying vec2 place;
+    varying vec3 shady, shadowAt;
+    #endif
     #ifndef MATT
     varying float clear;  // transmittance of the air
     #endif
@@ -64,7 +71,6 @@ const shaders = (() => {
       #ifdef GLASS
       if (dot(n, toEye) < 0.0) n = -n;
       #endif
-      shadowAt = (shadowMatrix * vec4(position + normalOffset * n, 1.0)).xyz;
       place = uv;
       vec3 color = tint.rgb * tint.rgb;
       vec3 direct = (1.0 - 0.85 * finish.y) * color * sunLight * max(dot(n, toSun), 0.0);
@@ -72,11 +78,17 @@ const shaders = (() => {
       float through = exp2(-kHaze * length(toEye));
       #ifdef MATT
       sunny = shown(mix(horizon(), direct + around, through));
+      #else
+      sunny = direct + around;
+      clear = through;
+      #endif
+      #ifdef SHADOWS
+      shadowAt = (shadowMatrix * vec4(position + normalOffset * n, 1.0)).xyz;
+      #ifdef MATT
       shady = shown(mix(horizon(), around, through));
       #else
-      sunny = direct;
       shady = around;
-      clear = through;
+      #endif
       #endif
       #ifdef SHINY
       facing = n;
@@ -88,7 +100,10 @@ const shaders = (() => {
     }`;
 
   const bodyFragment = `${common}${shadow}
-    varying vec3 sunny, shady, shadowAt;
+    varying vec3 sunny;
+    #ifdef SHADOWS
+    varying vec3 shady;
+    #endif
     varying vec2 place;
     uniform sampler2D image;  // of the material, otherwise the grain
     #ifndef MATT
@@ -116,15 +131,23 @@ const shaders = (() => {
     }
     #endif
     void main() {
-      float lit = sunlit(shadowAt);
+      float lit = 1.0;
+      vec3 color = sunny;
+      #ifdef SHADOWS
+      lit = sunlit(shadowAt);
+      color = mix(shady, sunny, lit);
+      #endif
       #ifdef MATT
+      #if defined(SHADOWS) || !defined(SMALL)
       float noise = texture2D(image, place).r - 0.5;
       #ifdef FINE
       noise += 0.8 * (texture2D(image, place * 0.13).g - 0.5);
       #endif
-      gl_FragColor = vec4(mix(shady, sunny, lit) * (1.0 + 0.2 * noise), 1.0);
+      color *= 1.0 + 0.2 * noise;
+      #endif
+      gl_FragColor = vec4(color, 1.0);
       #else
-      vec4 light = vec4(sunny * lit + shady, 1.0);
+      vec4 light = vec4(color, 1.0);
       #ifdef TEXTURED
       vec3 texel = texture2D(image, place).rgb;
       light.rgb *= texel * (texel * (texel * 0.305306011 + 0.682171111) + 0.012522878);
@@ -138,18 +161,27 @@ const shaders = (() => {
 
   const groundVertex = `
     precision highp float;
+    varying vec3 world;
+    #ifdef SHADOWS
     uniform mat4 shadowMatrix;
-    varying vec3 world, shadowAt;
+    varying vec3 shadowAt;
+    #endif
     void main() {
       world = (modelMatrix * vec4(position, 1.0)).xyz;
+      #ifdef SHADOWS
       shadowAt = (shadowMatrix * vec4(world, 1.0)).xyz;
+      #endif
       gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);
     }`;
 
   const groundFragment = `${common}${shadow}
-    varying vec3 world, shadowAt;
+    varying vec3 world;
     uniform sampler2D image;
     void main() {
+      float lit = 1.0;
+      #ifdef SHADOWS
+      lit = sunlit(shadowAt);
+      #endif
       float metres = distance(world, cameraPosition);
       vec2 broad = texture2D(image, world.zx * 0.013).rg;
       #ifdef FINE
@@ -158,7 +190,7 @@ const shaders = (() => {
       float fine = 0.5;
       #endif
       vec3 albedo = groundColor * (0.3 + 0.5 * fine + 0.4 * broad.g + 0.2 * smoothstep(0.3, 0.7, broad.r));
-      vec3 light = albedo * (sunLight * toSun.y * sunlit(shadowAt) + ambient(1.0));
+      vec3 light = albedo * (sunLight * toSun.y * lit + ambient(1.0));
       gl_FragColor = vec4(shown(mix(horizon(), light, exp2(-kHaze * metres))), 1.0);
     }`;
 
@@ -191,8 +223,26 @@ const shaders = (() => {
       gl_FragColor = vec4(mix(vec3(0.1, 0.5, 0.75), vec3(0.5, 0.9, 1.0), 0.5 + 0.5 * up), 0.75);
     }`;
 
+  // The farthest depth of a square of pixels, in 24 bits; a little less than 1 for the sky.
+  const squareVertex = 'void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }';
+  const squareFragment = `
+    precision highp float;
+    uniform highp sampler2D depths;
+    uniform vec2 texel;
+    void main() {
+      vec2 first = (floor(gl_FragCoord.xy) * float(SQUARE) + 0.5) * texel;
+      float farthest = 0.0;
+      for (int y = 0; y < SQUARE; ++y) {
+        for (int x = 0; x < SQUARE; ++x) {
+          farthest = max(farthest, texture2D(depths, first + vec2(float(x), float(y)) * texel).r);
+        }
+      }
+      vec3 digits = fract(min(farthest, 0.9999999) * vec3(1.0, 255.0, 65025.0));
+      gl_FragColor = vec4(digits.xy - digits.yz / 255.0, digits.z, 1.0);
+    }`;
+
   return {bodyVertex, bodyFragment, groundVertex, groundFragment, skyVertex, skyFragment,
-          depthVertex, depthFragment, markVertex, markFragment};
+          depthVertex, depthFragment, markVertex, markFragment, squareVertex, squareFragment};
 })();
 
 const kGrains = 0.45;         // periods of the grain per metre
@@ -207,6 +257,8 @@ class Batch {
     this.shown = [];  // entries that are visible
     this.vertexCount = 0;
     this.indexCount = 0;
+    this.firstMoved = Infinity;  // vertices that have moved since they were uploaded
+    this.endMoved = 0;
   }
 
   hasRoom(part) {
@@ -218,13 +270,16 @@ class Batch {
     entry.vertexCount = entry.part.positions.length / 3;
     entry.firstIndex = this.indexCount;
     entry.place = new THREE.Vector3();  // centre in the world
-    entry.version = -1;  // of the mover's matrix by which the vertices were moved
+    entry.image = 0;  // number of the image of DepthGrid, and the places along the view in it and in the next
+    entry.depth = entry.nextDepth = -Infinity;
+    entry.version = -1;     // of the mover's matrix
+    entry.isStale = false;  // true if the vertices are not yet where the mover is
     this.vertexCount += entry.vertexCount;
     this.indexCount += entry.part.indices.length;
     this.entries.push(entry);
   }
 
-  build(material, looks) {
+  build(looks) {
     const count = this.vertexCount;
     this.positions = new Float32Array(3 * count);  // in the frame of the mover
     this.normals = new Int8Array(4 * count);
@@ -245,7 +300,7 @@ class Batch {
     attribute('finish', finishes, 4, true);
     attribute('uv', this.uvs, 2, false);
     geometry.setIndex(this.makeIndices());
-    this.mesh = new THREE.Mesh(geometry, material);
+    this.mesh = new THREE.Mesh(geometry);
     this.mesh.frustumCulled = false;
   }
 
@@ -299,8 +354,22 @@ class Batch {
     for (let i = 0; i < part.indices.length; ++i) {
       this.all[entry.firstIndex + i] = part.indices[i] + entry.firstVertex;
     }
+    entry.meanArea = this.areaOf(entry) / (part.indices.length / 3);
     entry.center = low.map((value, axis) => 0.5 * (value + high[axis]));
     entry.radius = 0.5 * Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  }
+
+  // Returns the area of the triangles of an entry.
+  areaOf({firstIndex, part}) {
+    const {all, positions: p} = this, end = firstIndex + part.indices.length;
+    let area = 0;
+    for (let i = firstIndex; i < end; i += 3) {
+      const a = 3 * all[i], b = 3 * all[i + 1], c = 3 * all[i + 2];
+      const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
+      const vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
+      area += 0.5 * Math.sqrt((uy * vz - uz * vy) ** 2 + (uz * vx - ux * vz) ** 2 + (ux * vy - uy * vx) ** 2);
+    }
+    return area;
   }
 
   // Lists the entries that are visible. Returns true if others are than before.
@@ -321,21 +390,26 @@ class Batch {
   drawAll() {
     const to = this.geometry.index.array;
     let size = 0;
-    for (const {firstIndex, part} of this.shown) {
+    for (const entry of this.shown) {
+      if (entry.isStale) this.moveEntry(entry);
+      const {firstIndex, part} = entry;
       const end = firstIndex + part.indices.length;
       for (let i = firstIndex; i < end; ++i) to[size++] = this.all[i];
     }
-    Batch.setSize(this.mesh, size);
+    this.setSize(this.mesh, size);
     if (this.caster) this.caster.visible = size > 0;
   }
 
-  // Draws the triangles of the visible entries that face a place (w = 1) or a direction (w = 0), of
-  // entries that `isSeen` accepts. A renderer on the processor takes as long for the others.
-  drawFacing(mesh, {x, y, z}, w, isSeen) {
+  // Draws the triangles of the visible entries that face a place (w = 1) or a direction (w = 0). A
+  // renderer on the processor takes as long for the others. `leastOf` returns for an entry the least
+  // 2 area distance cos(angle) of a triangle (w = 0: without the distance); Infinity: none is drawn.
+  drawFacing(mesh, {x, y, z}, w, leastOf) {
     const to = mesh.geometry.index.array, {all} = this, p = this.places.array;
     let size = 0;
     for (const entry of this.shown) {
-      if (!isSeen(entry)) continue;
+      const least = leastOf(entry);
+      if (least === Infinity) continue;
+      if (entry.isStale) this.moveEntry(entry);
       const end = entry.firstIndex + entry.part.indices.length;
       for (let i = entry.firstIndex; i < end; i += 3) {
         const a = 3 * all[i], b = 3 * all[i + 1], c = 3 * all[i + 2];
@@ -344,16 +418,18 @@ class Batch {
         const vx = p[c] - px, vy = p[c + 1] - py, vz = p[c + 2] - pz;
         const facing = (uy * vz - uz * vy) * (x - w * px) + (uz * vx - ux * vz) * (y - w * py) +
                        (ux * vy - uy * vx) * (z - w * pz);
-        if (facing <= 0) continue;
+        if (facing <= least) continue;
         to[size++] = all[i];
         to[size++] = all[i + 1];
         to[size++] = all[i + 2];
       }
     }
-    Batch.setSize(mesh, size);
+    this.setSize(mesh, size);
   }
 
-  static setSize(mesh, size) {
+  // Has `size` indices drawn, and what has changed uploaded.
+  setSize(mesh, size) {
+    this.upload();
     const {index} = mesh.geometry;
     mesh.geometry.setDrawRange(0, size);
     index.updateRange = {offset: 0, count: Math.max(size, 1)};
@@ -361,31 +437,58 @@ class Batch {
     mesh.visible = size > 0;
   }
 
-  // Moves the vertices of visible entries to where their movers are.
+  // Moves the centres of visible entries to where their movers are; the vertices are moved when they are
+  // drawn.
   move(worlds, versions) {
-    let first = Infinity, end = 0;
+    this.worlds = worlds;
     for (const entry of this.shown) {
       const version = entry.mover < 0 ? 0 : versions[entry.mover];
       if (entry.version === version) continue;
       entry.version = version;
-      this.moveEntry(entry, worlds);
-      first = Math.min(first, entry.firstVertex);
-      end = Math.max(end, entry.firstVertex + entry.vertexCount);
+      entry.isStale = true;
+      const [x, y, z] = entry.center, w = 12 * entry.mover;
+      if (entry.mover < 0) {
+        entry.place.set(x, y, z);
+      } else {
+        entry.place.set(worlds[w] * x + worlds[w + 1] * y + worlds[w + 2] * z + worlds[w + 3],
+                        worlds[w + 4] * x + worlds[w + 5] * y + worlds[w + 6] * z + worlds[w + 7],
+                        worlds[w + 8] * x + worlds[w + 9] * y + worlds[w + 10] * z + worlds[w + 11]);
+      }
     }
-    if (end === 0) return;
-    this.places.updateRange = {offset: 3 * first, count: 3 * (end - first)};
-    this.facings.updateRange = {offset: 4 * first, count: 4 * (end - first)};
-    this.places.needsUpdate = this.facings.needsUpdate = true;
   }
 
-  // Moves the vertices and the centre of an entry.
-  moveEntry(entry, worlds) {
-    const {positions, normals} = this, places = this.places.array, facings = this.facings.array;
+  // Moves the vertices of all visible entries.
+  moveShown() {
+    for (const entry of this.shown) if (entry.isStale) this.moveEntry(entry);
+    this.upload();
+  }
+
+  // Has the vertices that have moved uploaded.
+  upload() {
+    const {firstMoved: first, endMoved: end} = this;
+    if (end === 0) return;
+    for (const attribute of [this.places, this.facings]) {
+      // What is still to be uploaded stays in the range; three.js sets the count to -1 afterwards.
+      const {itemSize, updateRange: {offset, count}} = attribute;
+      const from = Math.min(first * itemSize, count > 0 ? offset : Infinity);
+      const to = Math.max(end * itemSize, count > 0 ? offset + count : 0);
+      attribute.updateRange = {offset: from, count: to - from};
+      attribute.needsUpdate = true;
+    }
+    this.firstMoved = Infinity;
+    this.endMoved = 0;
+  }
+
+  // Moves the vertices of an entry to where its mover is.
+  moveEntry(entry) {
+    const {positions, normals, worlds} = this, places = this.places.array, facings = this.facings.array;
     const begin = entry.firstVertex, end = begin + entry.vertexCount;
+    entry.isStale = false;
+    this.firstMoved = Math.min(this.firstMoved, begin);
+    this.endMoved = Math.max(this.endMoved, end);
     if (entry.mover < 0) {
       places.set(positions.subarray(3 * begin, 3 * end), 3 * begin);
       facings.set(normals.subarray(4 * begin, 4 * end), 4 * begin);
-      entry.place.fromArray(entry.center);
       return;
     }
     const w = 12 * entry.mover;
@@ -393,8 +496,6 @@ class Batch {
     const a = worlds[w], b = worlds[w + 1], c = worlds[w + 2], tx = worlds[w + 3], e = worlds[w + 4],
           f = worlds[w + 5], g = worlds[w + 6], ty = worlds[w + 7], h = worlds[w + 8],
           j = worlds[w + 9], k = worlds[w + 10], tz = worlds[w + 11];
-    const [cx, cy, cz] = entry.center;
-    entry.place.set(a * cx + b * cy + c * cz + tx, e * cx + f * cy + g * cz + ty, h * cx + j * cy + k * cz + tz);
     for (let i = 3 * begin, o = 4 * begin; i < 3 * end; i += 3, o += 4) {
       const x = positions[i], y = positions[i + 1], z = positions[i + 2];
       places[i] = a * x + b * y + c * z + tx;
@@ -405,6 +506,117 @@ class Batch {
       facings[o + 1] = e * u + f * v + g * n;
       facings[o + 2] = h * u + j * v + k * n;
     }
+  }
+}
+
+const kSquare = 4;      // pixels of a side
+const kGridEvery = 2;   // frames for one in which the squares are drawn
+const kFarDigits = 2;   // in units of the last digit: more than the error of a stored depth
+
+// What an earlier image hides: the farthest depth in each square of pixels. An entry whose squares are all
+// nearer than itself need not be drawn. What comes into view is drawn a few frames late. Needs WebGL 2.
+class DepthGrid {
+  constructor(renderer) {
+    this.renderer = renderer;
+    this.gl = renderer.getContext();
+    this.buffer = this.gl.createBuffer();
+    this.uniforms = {depths: {value: null}, texel: {value: new THREE.Vector2()}};
+    const material = new THREE.ShaderMaterial({
+      vertexShader: shaders.squareVertex, fragmentShader: shaders.squareFragment, uniforms: this.uniforms,
+      defines: {SQUARE: kSquare}, depthTest: false, depthWrite: false});
+    this.mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), material);
+    this.mesh.frustumCulled = false;
+    this.image = this.next = null;  // the image that was read, and the one that is being drawn
+    this.number = 0;                // of images that were read
+  }
+
+  // True if the next image is not yet finished.
+  get isBusy() { return this.next !== null; }
+
+  // Draws the squares of a depth texture, an image of a camera, unless isBusy. read() fetches them once
+  // they are drawn, as waiting for them would take as long as drawing.
+  draw(depthTexture, texels, camera) {
+    const {renderer, gl} = this;
+    const width = Math.ceil(texels.width / kSquare), height = Math.ceil(texels.height / kSquare);
+    if (!this.target || this.target.width !== width || this.target.height !== height) {
+      if (this.target) this.target.dispose();
+      this.target = new THREE.WebGLRenderTarget(width, height, {depthBuffer: false, stencilBuffer: false});
+      gl.bindBuffer(gl.PIXEL_PACK_BUFFER, this.buffer);
+      gl.bufferData(gl.PIXEL_PACK_BUFFER, 4 * width * height, gl.STREAM_COPY);
+    }
+    this.uniforms.depths.value = depthTexture;
+    this.uniforms.texel.value.set(1 / texels.width, 1 / texels.height);
+    renderer.setRenderTarget(this.target);
+    renderer.render(this.mesh, camera);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, this.buffer);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, 0);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    renderer.setRenderTarget(null);
+    this.next = {
+      width, height, isDrawn: gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0),
+      view: camera.matrixWorldInverse.elements.slice(), projection: camera.projectionMatrix.elements.slice()};
+    gl.flush();
+  }
+
+  // Reads the next image, if it is finished.
+  read() {
+    const {gl, next} = this;
+    if (!next || gl.getSyncParameter(next.isDrawn, gl.SYNC_STATUS) !== gl.SIGNALED) return;
+    const bytes = new Uint8Array(4 * next.width * next.height);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, this.buffer);
+    gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, bytes);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    next.depths = new Float32Array(next.width * next.height);
+    for (let i = 0, at = 0; i < next.depths.length; ++i, at += 4) {
+      next.depths[i] = (bytes[at] + (bytes[at + 1] + (bytes[at + 2] + kFarDigits) / 255) / 255) / 255;
+    }
+    this.forgetNext();
+    this.image = next;
+    ++this.number;
+  }
+
+  forgetNext() {
+    if (this.next) this.gl.deleteSync(this.next.isDrawn);
+    this.next = null;
+  }
+
+  // Forgets all images.
+  clear() {
+    this.forgetNext();
+    this.image = null;
+  }
+
+  // Returns true if the image that was read hides an entry, by the sphere around it. `isNext`: draw() will
+  // follow.
+  hides(entry, isNext) {
+    if (!this.image) return false;
+    const {view: v, projection: p, width, height, depths} = this.image, {place: {x, y, z}, radius} = entry;
+    const depth = v[2] * x + v[6] * y + v[10] * z + v[14];
+    if (entry.image !== this.number) {
+      entry.image = this.number;
+      entry.depth = entry.nextDepth;
+    }
+    if (isNext) entry.nextDepth = depth;
+    // What has moved away since the image is taken for where it was: its own image must not hide it.
+    const near = Math.max(depth, entry.depth) + radius, nearW = p[11] * near + p[15];
+    if (nearW <= 0.1) return false;
+    const w = p[11] * depth + p[15];
+    const across = (p[0] * (v[0] * x + v[4] * y + v[8] * z + v[12]) + p[8] * depth + p[12]) / w;
+    const up = (p[5] * (v[1] * x + v[5] * y + v[9] * z + v[13]) + p[9] * depth + p[13]) / w;
+    const wide = radius * p[0] * (1 + Math.abs(across)) / nearW, high = radius * p[5] * (1 + Math.abs(up)) / nearW;
+    const left = Math.floor((0.5 + 0.5 * (across - wide)) * width);
+    const right = Math.floor((0.5 + 0.5 * (across + wide)) * width);
+    const low = Math.floor((0.5 + 0.5 * (up - high)) * height);
+    const top = Math.floor((0.5 + 0.5 * (up + high)) * height);
+    if (right < 0 || left >= width || top < 0 || low >= height) return false;
+    const nearest = 0.5 + 0.5 * (p[10] * near + p[14]) / nearW;
+    for (let row = Math.max(low, 0); row <= top && row < height; ++row) {
+      const end = row * width + Math.min(right, width - 1);
+      for (let at = row * width + Math.max(left, 0); at <= end; ++at) {
+        if (nearest <= depths[at]) return false;
+      }
+    }
+    return true;
   }
 }
 
@@ -420,6 +632,11 @@ const kQualities = [
   {shadowTexels: 2048, shadowEvery: 1, scale: 2},
 ];
 const kBestQuality = kQualities.length - 1;
+// Pixels that a triangle covers, to be drawn while the picture moves; or else its share of the mean area of
+// the triangles of its mesh.
+const kLeastPixels = 0.25, kLeastShare = 0.1;
+const kCrowd = 15000;        // visible triangles from which those are found that others hide
+const kSmall = 1;            // diagonal in metres of meshes that have no grain where there are no shadows
 const kLeastTexels = 2;  // of the shadow map: radius of the smallest meshes that have a shadow
 
 class Stage {
@@ -437,6 +654,7 @@ class Stage {
     this.quality = Stage.isSoftware() ? 2 : kBestQuality;
     this.scene = new THREE.Scene();
     this.casters = new THREE.Scene();
+    this.shadowed = [];
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.05, 2000);
     this.bodies = this.findBodies();
     this.batches = this.makeBatches();
@@ -444,7 +662,9 @@ class Stage {
     this.makeUniforms();
     this.build();
     this.mark = null;
-    this.drawn = 0;
+    this.drawn = 0;  // number of frames
+    this.crowd = kCrowd;
+    this.grid = this.culls && context.blitFramebuffer ? new DepthGrid(this.renderer) : null;
     this.setTime(0);
     this.addSurroundings();
   }
@@ -542,7 +762,7 @@ class Stage {
       for (const part of file.meshes[file.nodes[node].mesh]) {
         const material = file.materials[part.material] || Stage.plain;
         const kind = {isGlass: material.isGlass, isShiny: material.isGlass || material.roughness < 0.6,
-                      texture: part.uvs ? material.texture : -1};
+                      texture: part.uvs ? material.texture : -1, isSmall: Stage.isSmall(part, local)};
         const key = JSON.stringify(kind);
         if (!open.has(key) || !open.get(key).hasRoom(part)) {
           open.set(key, new Batch(kind));
@@ -552,6 +772,12 @@ class Stage {
       }
     }
     return batches;
+  }
+
+  // True if the grain of a mesh is hardly visible.
+  static isSmall({positions}, local) {
+    const box = new THREE.Box3().setFromArray(positions).applyMatrix4(local);
+    return box.getSize(new THREE.Vector3()).length() < kSmall;
   }
 
   makeUniforms() {
@@ -612,17 +838,24 @@ class Stage {
                                      defines: {...defines, ...more.defines}});
   }
 
-  bodyShader({isGlass, isShiny, texture}) {
+  // Returns the materials of a mesh without shadows and with them.
+  shaderPair(vertexShader, fragmentShader, more = {}) {
+    return [{}, {SHADOWS: ''}].map(
+        defines => this.shader(vertexShader, fragmentShader, {...more, defines: {...more.defines, ...defines}}));
+  }
+
+  bodyShaders({isGlass, isShiny, texture, isSmall}) {
     const more = {defines: {}, transparent: isGlass, depthWrite: !isGlass,
                   side: isGlass ? THREE.DoubleSide : THREE.FrontSide};
     if (isGlass) more.defines.GLASS = '';
     if (isShiny) more.defines.SHINY = '';
+    if (isSmall) more.defines.SMALL = '';
     if (!isShiny && texture < 0) more.defines.MATT = '';
     if (texture >= 0) {
       more.defines.TEXTURED = '';
       more.uniforms = {...this.uniforms, image: {value: this.loadTexture(texture)}};
     }
-    return this.shader(shaders.bodyVertex, shaders.bodyFragment, more);
+    return this.shaderPair(shaders.bodyVertex, shaders.bodyFragment, more);
   }
 
   build() {
@@ -631,13 +864,19 @@ class Stage {
     const looks = this.findLooks(), materials = new Map();
     for (const batch of this.batches) {
       const key = JSON.stringify(batch.kind);
-      if (!materials.has(key)) materials.set(key, this.bodyShader(batch.kind));
-      batch.build(materials.get(key), looks);
-      this.scene.add(batch.mesh);
+      if (!materials.has(key)) materials.set(key, this.bodyShaders(batch.kind));
+      batch.build(looks);
+      this.addShadowed(batch.mesh, materials.get(key));
       if (batch.kind.isGlass) continue;
       batch.buildCaster(depthMaterial, this.culls);
       this.casters.add(batch.caster);
     }
+  }
+
+  // Adds a mesh whose material is one of a pair, by the shadows that there are.
+  addShadowed(mesh, materials) {
+    this.shadowed.push({mesh, materials});
+    this.scene.add(mesh);
   }
 
   loadTexture(index) {
@@ -672,11 +911,10 @@ class Stage {
     const place = this.ground === null ? null : this.motion.matrix(this.ground);
     const height = place ? place.elements[13] : box.min.y;
     if (this.ground !== null || this.batches.every(batch => batch.entries.every(entry => entry.radius < kLargest))) {
-      const disc = new THREE.Mesh(new THREE.CircleBufferGeometry(1500, 48).rotateX(-Math.PI / 2),
-                                  this.shader(shaders.groundVertex, shaders.groundFragment));
+      const disc = new THREE.Mesh(new THREE.CircleBufferGeometry(1500, 48).rotateX(-Math.PI / 2));
       disc.position.set(0, height, 0);
       disc.renderOrder = 1;
-      this.scene.add(disc);
+      this.addShadowed(disc, this.shaderPair(shaders.groundVertex, shaders.groundFragment));
     }
     const sky = new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2, 24, 24),
                                this.shader(shaders.skyVertex, shaders.skyFragment,
@@ -716,15 +954,12 @@ class Stage {
     if (current !== shadowTexels) {
       if (this.shadowTarget) this.shadowTarget.dispose();
       this.shadowTarget = null;
-      if (shadowTexels) {
-        const depthTexture = new THREE.DepthTexture(shadowTexels, shadowTexels, THREE.UnsignedIntType);
-        this.shadowTarget = new THREE.WebGLRenderTarget(shadowTexels, shadowTexels, {
-          depthTexture, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter});
-      }
+      if (shadowTexels) this.shadowTarget = Stage.depthTarget(shadowTexels, shadowTexels);
       this.uniforms.shadowMap.value = this.shadowTarget && this.shadowTarget.depthTexture;
       this.uniforms.shadowTexel.value = shadowTexels ? 1 / shadowTexels : 0;
       this.uniforms.normalOffset.value = shadowTexels ? 3 * this.shadowRadius / shadowTexels : 0;
     }
+    for (const {mesh, materials} of this.shadowed) mesh.material = materials[shadowTexels ? 1 : 0];
     this.isDirty = this.shadowsDirty = true;
   }
 
@@ -748,16 +983,23 @@ class Stage {
     const isFirst = !this.visibleBodies;
     if (!moved && !shown && !isFirst) return;
     if (shown || isFirst) this.showBodies();
-    for (const batch of this.batches) batch.move(this.motion.worlds, this.motion.versions);
+    for (const batch of this.batches) {
+      batch.move(this.motion.worlds, this.motion.versions);
+      if (!this.culls) batch.moveShown();
+    }
     this.isDirty = this.shadowsDirty = true;
     this.updateMark();
   }
 
   showBodies() {
     this.visibleBodies = new Set();
+    this.visibleTriangles = 0;
     for (const batch of this.batches) {
       if (batch.show(this.motion.isVisible) && !this.culls) batch.drawAll();
-      for (const {node} of batch.shown) if (this.bodies[node] >= 0) this.visibleBodies.add(this.bodies[node]);
+      for (const {node, part} of batch.shown) {
+        if (this.bodies[node] >= 0) this.visibleBodies.add(this.bodies[node]);
+        this.visibleTriangles += part.indices.length / 3;
+      }
     }
   }
 
@@ -766,7 +1008,7 @@ class Stage {
     if (!this.isDirty) return false;
     const {renderer, camera} = this;
     camera.updateMatrixWorld();
-    if (this.shadowTarget && this.shadowsDirty && (!isPlaying || ++this.drawn % kQualities[this.quality].shadowEvery === 0)) {
+    if (this.shadowTarget && this.shadowsDirty && (!isPlaying || this.drawn % kQualities[this.quality].shadowEvery === 0)) {
       this.cullCasters();
       renderer.setRenderTarget(this.shadowTarget);
       renderer.clear();
@@ -774,38 +1016,79 @@ class Stage {
       renderer.setRenderTarget(null);
       this.shadowsDirty = false;
     }
-    this.cullMeshes();
+    const hides = this.grid && isPlaying && this.visibleTriangles > this.crowd;
+    this.cullMeshes(isPlaying, hides);
     this.uniforms.rays.value.getInverse(camera.projectionMatrix);
     const turn = new THREE.Matrix4().extractRotation(camera.matrixWorld);
     this.uniforms.rays.value.premultiply(turn);
-    renderer.clear();
-    renderer.render(this.scene, camera);
+    if (hides && this.isGridFrame()) {
+      this.drawByTarget();
+    } else {
+      renderer.clear();
+      renderer.render(this.scene, camera);
+    }
+    ++this.drawn;
     this.isDirty = false;
     return true;
+  }
+
+  isGridFrame() { return this.drawn % kGridEvery === 0 && !this.grid.isBusy; }
+
+  // Draws by way of a target, whose depths can be read.
+  drawByTarget() {
+    const {renderer, gl, canvas: {width, height}} = this;
+    if (!this.target || this.target.width !== width || this.target.height !== height) {
+      if (this.target) this.target.dispose();
+      this.target = Stage.depthTarget(width, height);
+    }
+    renderer.setRenderTarget(this.target);
+    renderer.clear();
+    renderer.render(this.scene, this.camera);
+    renderer.setRenderTarget(null);
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, renderer.properties.get(this.target).__webglFramebuffer);
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
+    this.grid.draw(this.target.depthTexture, this.target, this.camera);
+  }
+
+  // Returns a target with a depth texture.
+  static depthTarget(width, height) {
+    return new THREE.WebGLRenderTarget(width, height, {
+      depthTexture: new THREE.DepthTexture(width, height, THREE.UnsignedIntType),
+      minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter});
   }
 
   cullCasters() {
     if (!this.culls) return;
     const least = kLeastTexels * this.shadowRadius / this.shadowTarget.width;
-    const isSeen = entry => entry.radius > least;
+    const leastOf = entry => entry.radius > least ? 0 : Infinity;
     for (const batch of this.batches) {
-      if (batch.caster) batch.drawFacing(batch.caster, this.uniforms.toSun.value, 0, isSeen);
+      if (batch.caster) batch.drawFacing(batch.caster, this.uniforms.toSun.value, 0, leastOf);
     }
   }
 
-  cullMeshes() {
+  cullMeshes(isPlaying, hides) {
     if (!this.culls) return;
-    const {camera} = this, sphere = new THREE.Sphere();
+    const {camera, grid} = this;
+    if (hides) grid.read();
+    else if (grid) grid.clear();
+    const isNext = hides && this.isGridFrame();
+    const sphere = new THREE.Sphere();
     const frustum = new THREE.Frustum().setFromMatrix(
         new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
-    const isSeen = entry => {
+    // A triangle of area A covers A cos(angle) / (distance pixel)² pixels.
+    const pixel = 2 * Math.tan(camera.fov * Math.PI / 360) / this.canvas.height;
+    const leastOf = entry => {
       sphere.center = entry.place;
       sphere.radius = entry.radius;
-      return frustum.intersectsSphere(sphere);
+      if (!frustum.intersectsSphere(sphere) || hides && grid.hides(entry, isNext)) return Infinity;
+      if (!isPlaying) return 0;
+      const nearest = Math.max(0, entry.place.distanceTo(camera.position) - entry.radius);
+      return 2 * nearest * Math.min(kLeastPixels * pixel * pixel * nearest * nearest, kLeastShare * entry.meanArea);
     };
     for (const batch of this.batches) {
       if (batch.kind.isGlass) batch.drawAll();
-      else batch.drawFacing(batch.mesh, camera.position, 1, isSeen);
+      else batch.drawFacing(batch.mesh, camera.position, 1, leastOf);
     }
   }
 
@@ -821,6 +1104,7 @@ class Stage {
       for (const entry of batch.shown) {
         if (this.bodies[entry.node] < 0) continue;
         if (!caster.ray.intersectsSphere(new THREE.Sphere(entry.place, 1.01 * entry.radius))) continue;
+        if (entry.isStale) batch.moveEntry(entry);
         const point = Stage.hit(batch, entry, caster.ray);
         if (!point || point.distanceTo(caster.ray.origin) >= nearest) continue;
         nearest = point.distanceTo(caster.ray.origin);
@@ -868,7 +1152,7 @@ class Stage {
         const mesh = new THREE.Mesh(geometry, material);
         mesh.frustumCulled = false;
         mesh.renderOrder = 3;
-        mesh.userData = entry;
+        mesh.userData = {batch, entry};
         this.mark.add(mesh);
       }
     }
@@ -878,7 +1162,13 @@ class Stage {
 
   updateMark() {
     if (!this.mark) return;
-    for (const mesh of this.mark.children) mesh.visible = !!this.motion.isVisible[mesh.userData.node];
+    for (const mesh of this.mark.children) {
+      const {batch, entry} = mesh.userData;
+      mesh.visible = !!this.motion.isVisible[entry.node];
+      if (!mesh.visible || !entry.isStale) continue;
+      batch.moveEntry(entry);
+      batch.upload();
+    }
   }
 }
 Stage.plain = {name: '', color: [0.5, 0.48, 0.45, 1], roughness: 0.9, metallic: 0, isGlass: false, opacity: 1, texture: -1, extras: {}};
