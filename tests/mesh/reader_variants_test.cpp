@@ -1,4 +1,6 @@
 // Tests of files of other programs: each variant of a format is the same tetrahedron.
+#include <gmock/gmock.h>
+
 #include <cstring>
 #include <string>
 
@@ -178,6 +180,16 @@ TEST(MeshVariants, GltfExtensionsOfMaterialsAreIgnored) {
   };
   expect_tetrahedron(required("KHR_materials_specular"), MeshFormat::kGltf, "looks");
   EXPECT_THROW(parse(required("KHR_draco_mesh_compression"), MeshFormat::kGltf), InputError);
+}
+
+TEST(MeshVariants, GltfOfVersionOneIsNamed) {
+  try {
+    parse(R"({"asset":{"version":1},"buffers":{"b":{"byteLength":4,"uri":"data:;base64,AAAA"}}})",
+          MeshFormat::kGltf);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("only version 2 of glTF is supported"));
+  }
 }
 
 }  // namespace
