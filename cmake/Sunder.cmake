@@ -1,6 +1,7 @@
 # Options with which all targets of the project are compiled and installed, and functions that add
 # targets.
 
+include(CheckLinkerFlag)
 include(GNUInstallDirs)
 
 # Components are packages; what names none is for developers.
@@ -15,11 +16,19 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYP
 endif()
 find_program(SUNDER_CCACHE ccache)
 if(SUNDER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${SUNDER_CCACHE})
+  set(settings)
   if(SUNDER_QUICK_BUILD)
-    set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${SUNDER_CCACHE})
+    list(APPEND settings CCACHE_SLOPPINESS=pch_defines,time_macros)
   endif()
+  # Paths within the build folder count relative to it, so that one build compiles nothing that
+  # another of the same sources and options has compiled.
+  if(NOT DEFINED ENV{CCACHE_BASEDIR})
+    list(APPEND settings CCACHE_BASEDIR=${PROJECT_BINARY_DIR})
+  endif()
+  if(settings)
+    list(PREPEND settings ${CMAKE_COMMAND} -E env)
+  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${settings} ${SUNDER_CCACHE})
 endif()
 
 # An older processor stops x86-64-v3 code with "illegal instruction".
@@ -75,6 +84,17 @@ function(sunder_sanitize target)
   if(SUNDER_SANITIZE)
     target_link_options(${target} PRIVATE -fsanitize=${SUNDER_SANITIZE})
     set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  endif()
+endfunction()
+
+# Marks a shared library with the instruction set that it is compiled for: on a processor without it
+# the loader reports "CPU ISA level is lower than required", and runs no code of the library.
+function(sunder_mark_processor target)
+  if(SUNDER_ARCH MATCHES "^x86-64-v[234]$")
+    check_linker_flag(CXX -Wl,-z,${SUNDER_ARCH} SUNDER_LINKER_MARKS_PROCESSOR)
+    if(SUNDER_LINKER_MARKS_PROCESSOR)
+      target_link_options(${target} PRIVATE -Wl,-z,${SUNDER_ARCH})
+    endif()
   endif()
 endfunction()
 

@@ -7,7 +7,7 @@ tools=(g++ cmake ninja-build ccache pkg-config
   libeigen3-dev libstb-dev libzstd-dev libxxhash-dev nlohmann-json3-dev
   libtomlplusplus-dev libcli11-dev libbox2d-dev libegl-dev libgl-dev
   libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6 ffmpeg)
-checks=(libgtest-dev librapidcheck-dev libbenchmark-dev python3)
+checks=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3)
 
 say() { printf '\n== %s\n' "$*"; }
 fail() {

@@ -2,11 +2,11 @@
 """Checks the pages against the source tree and the program: links and anchors, the options of
 docs/cli.md, the JSON keys of docs/json.md, the commands in code blocks, and the length of README.md.
 
-Usage: check_docs.py ROOT PROGRAM. Takes about half a minute. Read first: main().
+Usage: check_docs.py ROOT PROGRAM. Takes about fifteen seconds. Read first: main().
 
 Commands of the code blocks of README.md, docs/*.md and bench/README.md are run in a new folder
 (make_folder()). Long ones are shortened, as shorten() has it:
-  simulate         runs 3 frames;
+  simulate         runs at most 3 frames;
   export, view     write 3 frames of a scene; view is left out where three.js is not installed;
   render           draws 2 frames, or a sheet of 2, of 64x48 pixels unless the command has a size;
   bench            runs 2 frames of each scene once, without warm-up, and accepts states of one scene;
@@ -263,7 +263,8 @@ def shorten(arguments):
     """Returns a command that does the same in less time, see the head of this file."""
     command = arguments[0]
     if command == "simulate":
-        return add(arguments, "--frames", "3")
+        given = arguments[arguments.index("--frames") + 1] if "--frames" in arguments else "3"
+        return with_value(arguments, "--frames", str(min(3, int(given))))
     if command in ("export", "view") and not arguments[1].endswith((".take", ".glb")):
         return add(arguments, "--frames", "3")
     if command == "render":

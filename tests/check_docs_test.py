@@ -128,6 +128,7 @@ class CheckDocs(unittest.TestCase):
         for given, expected in (
                 ("simulate house --take a.take", "simulate house --take a.take --frames 3"),
                 ("simulate house --frames 1", "simulate house --frames 1"),
+                ("simulate house --frames 300", "simulate house --frames 3"),
                 ("render a.take -o x.mp4 --frames 60:120", "render a.take -o x.mp4 --frames 1:2 "
                                                            "--size 64x48"),
                 ("render house -o x.png --size 8x8", "render house -o x.png --size 8x8 --frames 0:1"),

@@ -13,6 +13,8 @@ set_tests_properties("truth 20" PROPERTIES COST 32)
 set_tests_properties("truth 27" PROPERTIES COST 27)
 set_tests_properties("truth 43" PROPERTIES COST 24)
 set_tests_properties("extreme 10" PROPERTIES COST 28)
+set_tests_properties("truth 27 at the default preset" PROPERTIES COST 24 LABELS "truth_default;long")
+set_tests_properties("truth 20 at the default preset" PROPERTIES COST 17 LABELS "truth_default;long")
 set_tests_properties(Golden.DrawingAndSimulationAreUnchanged
   PROPERTIES COST 78 LABELS "golden;long")
 set_tests_properties(Collapse.BuildingsOfListedPartsCollapseWhenTheyAreShot
@@ -27,6 +29,7 @@ set_tests_properties(Chain.HoldsABallOfTenThousandLinksAtEveryPreset
   PROPERTIES COST 23 LABELS "unit;long")
 set_tests_properties(Extremes.AThousandBodiesInOnePlacePartWithBoundedEnergyAndWork
   PROPERTIES COST 22 LABELS "extreme;long")
+set_tests_properties(World.ARestoredWorldGoesOnWithTheSameBits PROPERTIES COST 9)
 set_tests_properties(Collapse.ABridgeFallsWithoutItsPier PROPERTIES COST 18 LABELS "truth;long")
 set_tests_properties(MeshCommands.EveryGoodMeshBreaksSoundly
   PROPERTIES COST 17 LABELS "program;long")

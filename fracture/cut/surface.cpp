@@ -26,6 +26,23 @@ ConvexPtr internal_convex(const Convex& part) {
   return make_convex(std::move(polyhedron), part.material, nullptr, part.X_RT);
 }
 
+/// Returns the volume that a mesh may lose or gain by a cut because corners of faces are off their
+/// planes: caps that were joined of faces flush with a neighbour are flat within a tolerance only.
+double unevenness_m3(const PolygonMesh& mesh) {
+  double sum_m3 = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const PolygonMesh::Face& face = mesh.faces[f];
+    double farthest_m = 0;
+    for (std::uint32_t k = face.first_contour; k < face.first_contour + face.contour_count; ++k) {
+      for (const std::uint32_t v : mesh.contour_corners(k)) {
+        farthest_m = std::max(farthest_m, std::abs(face.plane.distance(mesh.vertices[v])));
+      }
+    }
+    sum_m3 += farthest_m * face_area(mesh, f);
+  }
+  return sum_m3;
+}
+
 class SurfaceCutter {
  public:
   SurfaceCutter(const AlignedPattern& pattern, const ConvexPtr& parent, const Fit& fit)
@@ -109,8 +126,13 @@ class SurfaceCutter {
       sum += parts[i].debris_m3;
       result.debris_volume_m3 += parts[i].debris_m3;
     }
-    const bool adds_up = std::abs(sum - whole_m3_) <= cutter_.allowed_error_m3(whole_m3_);
-    return adds_up && !result.parts.empty() ? result : whole(true);
+    return adds_up(sum) && !result.parts.empty() ? result : whole(true);
+  }
+
+  bool adds_up(double sum_m3) const {
+    const double error_m3 = std::abs(sum_m3 - whole_m3_);
+    const double allowed_m3 = cutter_.allowed_error_m3(whole_m3_);
+    return error_m3 <= allowed_m3 || error_m3 <= allowed_m3 + unevenness_m3(*parent_->visual);
   }
 
   Parts parts_of(Draft& draft) const {

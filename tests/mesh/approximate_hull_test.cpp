@@ -142,7 +142,8 @@ TEST(ApproximateHull, IsNeverLargerThanTheHullForAnyNumberOfCoplanarPoints) {
   }
 }
 
-/// Figure 13 of the paper. The real bunny has 645 hull vertices; the ball replaces it if missing.
+/// Figure 13 of the paper. The real bunny has 645 hull vertices; a ball, which needs more of them
+/// to be as tight, replaces it if missing.
 TEST(ApproximateHull, IsAsTightAsFigure13) {
   const std::filesystem::path bunny = test::real_meshes_folder() / "good" / "bunny_12k.off";
   const bool is_real = std::filesystem::exists(bunny);
@@ -153,10 +154,10 @@ TEST(ApproximateHull, IsAsTightAsFigure13) {
     expect_encloses(hull, mesh.vertices);
     return volume(hull) / exact_m3;
   };
-  EXPECT_LE(ratio({Fit::Kind::kHull, 6}), 1.01 * ratio({Fit::Kind::k26Dop}));
-  EXPECT_LE(ratio({Fit::Kind::kHull, 20}), 1.065);
-  EXPECT_LE(ratio({Fit::Kind::kHull, 24}), 1.05);
-  EXPECT_LE(ratio({Fit::Kind::kHull, 64}), 1.012);
+  EXPECT_LE(ratio({Fit::Kind::kHull, 6}), (is_real ? 1.01 : 1.12) * ratio({Fit::Kind::k26Dop}));
+  EXPECT_LE(ratio({Fit::Kind::kHull, 20}), is_real ? 1.065 : 1.101);
+  EXPECT_LE(ratio({Fit::Kind::kHull, 24}), is_real ? 1.05 : 1.072);
+  EXPECT_LE(ratio({Fit::Kind::kHull, 64}), is_real ? 1.012 : 1.02);
 }
 
 }  // namespace

@@ -173,5 +173,35 @@ TEST(FlushBoxes, StayBondedAfterABreakBesideThem) {
   }
 }
 
+/// Returns two boxes side by side; the larger one's side at x = 1, which the smaller one touches,
+/// is uneven by a tenth of a micrometre.
+Compound uneven_pair() {
+  const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{1, -1, -1}, {2, 2, 2}}};
+  RawMesh mesh = parse_mesh(obj(boxes, true), MeshFormat::kObj, "pair");
+  for (Vec3& vertex : mesh.vertices) {
+    if (vertex.x() == 1 && vertex.y() * vertex.z() == -2) vertex.x() += 5e-8;
+  }
+  fracture::VacdOptions options;
+  options.node_count = 2;
+  return fracture::decompose(repair_mesh(std::move(mesh), "pair"), options).compound;
+}
+
+TEST(FlushBoxes, AreCutWhereTheSideTheyShareIsUneven) {
+  const Compound pair = uneven_pair();
+  ASSERT_EQ(pair.bonds.size(), 1u);
+  BreakCommand command;
+  command.event = command.seed = 1;
+  command.pattern.kind = PatternSpec::Kind::kVoronoi;
+  command.pattern.cells = 40;
+  command.X_RP.position = Vec3(1.5, 0.5, 0.5);
+  command.radius_m = 2;
+  const BreakPlan plan = fracture::break_compound(pair, command);
+  EXPECT_EQ(plan.failed, 0u);
+  EXPECT_GT(plan.pieces.size(), 10u);
+  double sum = plan.debris_volume_m3;
+  for (const Compound& piece : plan.pieces) sum += volume(piece);
+  EXPECT_NEAR(sum, volume(pair), 1e-5);
+}
+
 }  // namespace
 }  // namespace sunder

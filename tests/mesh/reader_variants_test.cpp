@@ -1,4 +1,6 @@
 // Tests of files of other programs: each variant of a format is the same tetrahedron.
+#include <gmock/gmock.h>
+
 #include <cstring>
 #include <string>
 
@@ -178,6 +180,26 @@ TEST(MeshVariants, GltfExtensionsOfMaterialsAreIgnored) {
   };
   expect_tetrahedron(required("KHR_materials_specular"), MeshFormat::kGltf, "looks");
   EXPECT_THROW(parse(required("KHR_draco_mesh_compression"), MeshFormat::kGltf), InputError);
+}
+
+TEST(MeshVariants, ObjWithoutTheListsThatItsFacesNameIsRead) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const std::string faces =
+      "f 1/1/9 3/3/9 2/2/9\nf 1/1/8 2/2/8 4/4/8\nf 1//7 4//7 3//7\nf 2/2 3/3 4/4\n";
+  expect_tetrahedron(points + faces, MeshFormat::kObj, "neither list");
+  EXPECT_THROW(parse(points + "vt 0 0\n" + faces, MeshFormat::kObj), InputError);
+  EXPECT_THROW(parse(points + "vn 0 0 1\n" + faces, MeshFormat::kObj), InputError);
+  EXPECT_THROW(parse(points + "f 1 2 9\n", MeshFormat::kObj), InputError);
+}
+
+TEST(MeshVariants, GltfOfVersionOneIsNamed) {
+  try {
+    parse(R"({"asset":{"version":1},"buffers":{"b":{"byteLength":4,"uri":"data:;base64,AAAA"}}})",
+          MeshFormat::kGltf);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("only version 2 of glTF is supported"));
+  }
 }
 
 }  // namespace

@@ -18,8 +18,12 @@ print(sunder.__file__)
 
 
 def environment(path=None):
-    """Returns the environment without the module of the build, with another path for modules."""
-    kept = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    """Returns the environment without the module of the build, with another path for modules.
+
+    Unless CMAKE_ARGS is set, a build by pip takes the build folder of this test: its own one would
+    compile for minutes."""
+    left_out = {"PYTHONPATH"} | ({"SUNDER_BUILD"} if "CMAKE_ARGS" in os.environ else set())
+    kept = {name: value for name, value in os.environ.items() if name not in left_out}
     return kept | ({"PYTHONPATH": str(path)} if path else {})
 
 

@@ -122,6 +122,9 @@ GltfData::GltfData(const MeshSource& source) : source_(source) {
   document_ = json::parse(json_chunk(), nullptr, false);
   if (!document_.is_object())
     fail("not a glTF file: the JSON cannot be parsed; export the mesh again");
+  const json::const_iterator buffers = document_.find("buffers");
+  if (buffers != document_.end() && buffers->is_object())  // by name, as in version 1
+    fail("only version 2 of glTF is supported; export the mesh as glTF 2.0");
   for (const json& extension : array(document_, "extensionsRequired")) {
     if (!extension.is_string() || changes_geometry(extension.get<std::string>())) {
       fail("the file requires the extension " + brief(extension) +

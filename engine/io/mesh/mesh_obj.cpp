@@ -1,5 +1,6 @@
 // Wavefront OBJ: polygons of any size, groups, negative indices. Statements other than surfaces are
-// ignored, as is usual for this format.
+// ignored, as is usual for this format, and so are indices into a list of texture coordinates or
+// normals that the file leaves out.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -32,7 +33,8 @@ class ObjReader {
   RawMesh read() {
     while (text_.next_line()) statement(text_.word());
     for (const ObjList& list : lists_) {
-      if (list.highest_index <= list.count) continue;
+      const bool is_left_out = list.count == 0 && &list != &lists_[0];
+      if (list.highest_index <= list.count || is_left_out) continue;
       text_.fail_at(list.highest_line, "there is no " + std::string(list.name) + " " +
                                            std::to_string(list.highest_index) + ", the file has " +
                                            std::to_string(list.count) + "; export the mesh again");
@@ -125,8 +127,9 @@ class ObjReader {
   void set_corner_attributes() {
     for (std::size_t c = 0; c < mesh_.corners.size(); ++c) {
       const std::uint32_t uv = corner_uvs_[c], normal = corner_normals_[c];
-      mesh_.corner_uvs.push_back(uv > 0 ? uvs_[uv - 1] : Vec2f(Vec2f::Zero()));
-      mesh_.corner_normals.push_back(normal > 0 ? normals_[normal - 1] : Vec3f(Vec3f::Zero()));
+      const bool has_uv = uv > 0 && !uvs_.empty(), has_normal = normal > 0 && !normals_.empty();
+      mesh_.corner_uvs.push_back(has_uv ? uvs_[uv - 1] : Vec2f(Vec2f::Zero()));
+      mesh_.corner_normals.push_back(has_normal ? normals_[normal - 1] : Vec3f(Vec3f::Zero()));
     }
   }
 

@@ -1,12 +1,13 @@
 """Builds a wheel of the Python module for pip: runs CMake, and packs the package with its scenes.
 
-Builds in build-python/ of the source tree, or in the configured build folder that the environment
-variable SUNDER_BUILD names. Read first: build_wheel().
+Builds in build-python/ of the source tree, with the arguments for CMake that the environment variable
+CMAKE_ARGS has, or in the configured build folder that SUNDER_BUILD names. Read first: build_wheel().
 """
 import base64
 import hashlib
 import os
 import re
+import shlex
 import subprocess
 import sys
 import sysconfig
@@ -30,7 +31,8 @@ def build_module():
     if not given:
         subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                         "-DSUNDER_QUICK_BUILD=ON", "-DSUNDER_TESTS=OFF", "-DSUNDER_BENCH=OFF",
-                        f"-DSUNDER_PYTHON={sys.executable}"],
+                        f"-DSUNDER_PYTHON={sys.executable}",
+                        *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
                        check=True)
     subprocess.run(["cmake", "--build", build, "--target", "sunder_python"], check=True)
     return build / "python" / "sunder"

@@ -13,7 +13,16 @@ the order x, y, z, w. A name ends in its unit where the unit is not obvious.
 """
 from pathlib import Path as _Path
 
-from . import _core
+try:
+    from . import _core
+except ImportError as _error:
+    if "CPU ISA level" not in str(_error):
+        raise
+    raise ImportError(
+        "the module sunder is compiled for processors with more instructions than this one has "
+        "(x86-64-v3: AVX2, BMI2 and FMA, unless SUNDER_ARCH named others); in a checkout run: "
+        "CMAKE_ARGS=-DSUNDER_ARCH=x86-64-v2 pip install --no-build-isolation scenes/api/python"
+    ) from _error
 from ._core import *  # noqa: F401,F403
 
 __all__ = sorted(name for name in vars(_core) if not name.startswith("_"))
