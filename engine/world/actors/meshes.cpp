@@ -51,7 +51,7 @@ void Meshes::free_unused(const Actors& actors, std::span<const MeshIndex> others
   kept_ -= released.size();
   unused_ = std::move(unused);
   searched_ = !searched_;
-  if (!searched_) most_ = 2 * kept_ + kFewest;
+  if (!searched_) most_ = kept_ + kept_ / 4 + kFewest;
 }
 
 void Meshes::add_to(std::span<Actor> actors, const DrawnConvexes& old) {
