@@ -257,7 +257,7 @@ void Statistics::take(const FramePtr& frame) {
     series.first = frame->report;
   } else {
     series.reports.push_back(frame->report);
-    series.reports.back().penetrations_m.clear();
+    series.reports.back().penetrations_m = std::vector<float>();  // clear() would keep the memory
     series.first_fracture.push_back(series.fracture_ms.size());
   }
   series.last = frame->report;

@@ -85,6 +85,14 @@ Vec3f direction_T(const Mesh& mesh, const Vec3f& direction_R) {
 
 void add_polyhedron(const ConvexPolyhedron& polyhedron, const std::vector<std::uint8_t>& hidden,
                     Mesh& mesh) {
+  std::size_t corners = 0, triangles = 0;
+  for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
+    if (hidden[f]) continue;
+    corners += polyhedron.faces[f].corner_count;
+    triangles += polyhedron.faces[f].corner_count - 2;
+  }
+  mesh.vertices.reserve(corners);
+  mesh.indices.reserve(3 * triangles);
   for (std::size_t f = 0; f < polyhedron.faces.size(); ++f) {
     if (hidden[f]) continue;
     const ConvexPolyhedron::Face& face = polyhedron.faces[f];
@@ -141,6 +149,9 @@ void add_visual(const Convex& convex, const std::vector<std::uint8_t>& hidden, M
       }
     }
   }
+  mesh.vertices.shrink_to_fit();
+  mesh.uvs.shrink_to_fit();
+  mesh.indices.shrink_to_fit();
 }
 
 }  // namespace

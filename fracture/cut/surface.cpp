@@ -206,7 +206,7 @@ ConvexPolyhedron fit_to_points(const ConvexPolyhedron& region, std::span<const V
     if (most <= kMinFitCutDepth * size) continue;
     if (clip(kept, plane, {}, tolerance, next, scratch) == PlaneSide::kCut) std::swap(kept, next);
   }
-  return kept;
+  return ConvexPolyhedron(kept);  // a copy, without the memory that clip() reserves
 }
 
 }  // namespace sunder::fracture

@@ -119,7 +119,8 @@ ConvexPtr weld(const AlignedPattern& pattern, const AlignedPattern::Cell& cell,
     if (!is_near(volume_m3, mass_properties(whole).volume_m3, kVolumeRounding)) return nullptr;
   }
   if (!merge_faces(parts, ghosts, whole)) return nullptr;
-  return make_convex(std::move(whole), parts[0]->material, nullptr, parts[0]->X_RT);
+  // Passes a copy, without the memory that clip() reserves.
+  return make_convex(whole, parts[0]->material, nullptr, parts[0]->X_RT);
 }
 
 }  // namespace sunder::fracture

@@ -119,8 +119,8 @@ void Debris::wake_unsupported(const Obstacles& obstacles) {
 
 void Debris::wake_hit(double dt_s, const Obstacles& obstacles) {
   if (asleep_.empty()) return;
-  moving_grid_.build(obstacles, dt_s, asleep_box_, ObstacleGrid::Which::kMoving);
-  if (moving_grid_.empty()) return;
+  grid_.build(obstacles, dt_s, asleep_box_, ObstacleGrid::Which::kMoving);
+  if (grid_.empty()) return;
   std::vector<std::uint8_t> touched(asleep_.size());
   for_chunks(asleep_.size(), kChipsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
     ObstacleGrid::Near near;
@@ -133,8 +133,8 @@ void Debris::wake_hit(double dt_s, const Obstacles& obstacles) {
         paths[w] = {here, here, double{radius_m_[asleep_[i + w]]}, dt_s};
       }
       const std::span some(paths.data(), count);
-      moving_grid_.find(some, near);
-      moving_grid_.sweep(some, near, touches);
+      grid_.find(some, near);
+      grid_.sweep(some, near, touches);
       for (std::size_t w = 0; w < count; ++w) touched[i + w] = touches[w].has_value();
     }
   });

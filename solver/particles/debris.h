@@ -102,8 +102,8 @@ class Debris {
   std::vector<std::uint32_t> awake_, asleep_, fading_;  ///< Chips by state, in the order of order_.
   bool lists_valid_ = true;  ///< False if the lists by state must be rebuilt.
   Box asleep_box_;
-  std::vector<Support> supports_;  ///< In ascending order of keys.
-  ObstacleGrid grid_, moving_grid_;
+  std::vector<Support> supports_;    ///< In ascending order of keys.
+  ObstacleGrid grid_;                ///< Obstacles near the chips of one loop; built anew for each.
   std::vector<StepResult> results_;  ///< Results for the chips of awake_.
   std::vector<Box> chunk_boxes_;     ///< Box of each chunk of awake chips.
 };

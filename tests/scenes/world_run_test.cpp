@@ -554,6 +554,23 @@ TEST(World, WhatHappensInACopyDoesNotTouchTheOther) {
   EXPECT_EQ(hash_of(world), hash_of(as_before));
 }
 
+TEST(World, CopiesOfASolidShareTheMemoryOfTheirMeshes) {
+  World world = make_world(empty_scene());
+  const Solid one = box(Vec3(1, 1, 1), Vec3(0, 0.5, 0));
+  Solid copy = one;
+  copy.X_WR.position.x() = 3;
+  world.add(one);
+  world.add(copy);
+  world.add(box(Vec3(1, 2, 1), Vec3(6, 1, 0)));
+  const FramePtr frame = world.frame();
+  ASSERT_EQ(frame->instances.size(), 3u);
+  const auto mesh = [&](std::size_t i) { return frame->instances[i].mesh; };
+  const auto memory = [&](std::size_t i) { return (*frame->meshes)[mesh(i).value].get(); };
+  EXPECT_NE(mesh(0), mesh(1));
+  EXPECT_EQ(memory(0), memory(1));
+  EXPECT_NE(memory(0), memory(2));
+}
+
 // Walls in the middle of their fall, a ball on a rope, bending steel, dust in the air, a ground of
 // meshes, a blast, and an empty world.
 TEST(World, ARestoredWorldGoesOnWithTheSameBits) {

@@ -51,7 +51,7 @@ void Meshes::free_unused(const Actors& actors, std::span<const MeshIndex> others
   kept_ -= released.size();
   unused_ = std::move(unused);
   searched_ = !searched_;
-  if (!searched_) most_ = 2 * kept_ + kFewest;
+  if (!searched_) most_ = kept_ + kept_ / 4 + kFewest;
 }
 
 void Meshes::add_to(std::span<Actor> actors, const DrawnConvexes& old) {
@@ -92,14 +92,33 @@ void Meshes::override_mesh(Actor& actor, ConvexSlot slot, std::shared_ptr<const 
   }
 }
 
+/// Returns, for each request, the index of the first with the same convex and hidden faces: copies
+/// of a solid share their convexes, so that they can share the memory of meshes as well.
+std::vector<std::size_t> Meshes::find_first_alike(std::span<const Pending> todo,
+                                                  const Actors& actors) {
+  const auto hidden = [&](const Pending& one) -> const std::vector<std::uint8_t>& {
+    return actors.find(one.key)->hidden[one.slot.value];
+  };
+  std::vector<std::size_t> first(todo.size());
+  std::unordered_map<const Convex*, std::size_t> of_convex;
+  for (std::size_t i = 0; i < todo.size(); ++i) {
+    const Convex* convex = actors.find(todo[i].key)->structure.convex(todo[i].slot).get();
+    const std::size_t known = of_convex.try_emplace(convex, i).first->second;
+    first[i] = hidden(todo[known]) == hidden(todo[i]) ? known : i;
+  }
+  return first;
+}
+
 void Meshes::draw(Actors& actors) {
   std::vector<Pending> todo = std::exchange(pending_, {});
   std::ranges::sort(todo);
   todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
   std::erase_if(todo, [&](const Pending& one) { return !is_needed(actors, one); });
+  const std::vector<std::size_t> first = find_first_alike(todo, actors);
   std::vector<std::shared_ptr<const Mesh>> made(todo.size());
   for_chunks(todo.size(), 8, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (first[i] != i) continue;
       const Actor& actor = *actors.find(todo[i].key);
       const ConvexSlot slot = todo[i].slot;
       made[i] = make_mesh(*actor.structure.convex(slot), actor.hidden[slot.value]);
@@ -107,7 +126,7 @@ void Meshes::draw(Actors& actors) {
   });
   for (std::size_t i = 0; i < todo.size(); ++i) {
     MeshIndex& mesh = actors.find(todo[i].key)->meshes[todo[i].slot.value];
-    mesh = made[i] ? add(std::move(made[i])) : MeshIndex();
+    mesh = made[first[i]] ? add(made[first[i]]) : MeshIndex();
   }
 }
 

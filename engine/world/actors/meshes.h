@@ -54,6 +54,8 @@ class Meshes {
     ConvexSlot slot;
     auto operator<=>(const Pending&) const = default;
   };
+  static std::vector<std::size_t> find_first_alike(std::span<const Pending> todo,
+                                                   const Actors& actors);
   /// True if a request is of an actor that still needs it.
   static bool is_needed(const Actors& actors, const Pending& one);
 
