@@ -142,7 +142,7 @@ TEST(CubeRoot, AgreesWithTheCLibraryTo3e16) {
     const long double exact = std::cbrt(static_cast<long double>(x));
     ASSERT_LT(std::abs(static_cast<double>(cube_root(x) / exact - 1)), 3e-16) << x;
   }
-  for (const double x : {1.0, 8.0, -27.0, 0.125}) EXPECT_EQ(cube_root(x), std::cbrt(x)) << x;
+  for (const double x : {1.0, 2.0, -3.0, 0.5}) EXPECT_EQ(cube_root(x * x * x), x);
 }
 
 TEST(CubeRoot, OfZeroAndInfinityIsTheSame) {
