@@ -19,6 +19,8 @@ thread_local bool is_busy = false;  // in a parallel loop: nested loops are seri
 void spin_pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
 #endif
 }
 
