@@ -48,6 +48,14 @@ add_library(sunder_options INTERFACE)
 target_compile_features(sunder_options INTERFACE cxx_std_20)
 target_compile_definitions(sunder_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
 target_compile_options(sunder_options INTERFACE -ffp-contract=off)
+# GCC 12 fuses products and sums of neighbouring lanes all the same (vfmaddsub), so it may not use
+# FMA at all. AVX-512 has FMA of its own, which GCC uses so only where it vectorizes straight code.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-mno-fma>)
+  if(SUNDER_ARCH AND NOT SUNDER_ARCH MATCHES "^x86-64(-v[23])?$")
+    target_compile_options(sunder_options INTERFACE $<BUILD_INTERFACE:-fno-tree-slp-vectorize>)
+  endif()
+endif()
 # Failed checks name their file from the root on: no installed file has the path of the build.
 target_compile_options(sunder_options INTERFACE
   $<BUILD_INTERFACE:-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=>)

@@ -15,9 +15,9 @@ fail() {
   exit 1
 }
 
-# The program is compiled for x86-64-v3 unless SUNDER_ARCH says otherwise.
+# On x86-64 the program is compiled for x86-64-v3 unless SUNDER_ARCH says otherwise.
 check_processor() {
-  [ -n "${SUNDER_ARCH:-}" ] && return
+  if [ -n "${SUNDER_ARCH:-}" ] || [ "$(uname -m)" != x86_64 ]; then return; fi
   local flag
   for flag in avx2 bmi2 fma movbe; do
     grep -qw "$flag" /proc/cpuinfo ||

@@ -7,6 +7,7 @@
 
 #include "engine/base/archive.h"
 #include "engine/base/random.h"
+#include "engine/base/roots.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/clip.h"
 #include "fracture/fracture.h"
@@ -46,7 +47,7 @@ Vec3 axis_across(const Convex& convex, const Vec3& direction_R) {
       thin = face.plane.normal;
     }
   }
-  if (least > kMaxPaneThickness * std::cbrt(convex.solid.volume_m3)) return direction_R;
+  if (least > kMaxPaneThickness * cube_root(convex.solid.volume_m3)) return direction_R;
   return thin.dot(direction_R) < 0 ? Vec3(-thin) : thin;
 }
 
@@ -79,7 +80,7 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   const double volume_m3 = mass_properties(part_P).volume_m3;
   ConvexPolyhedron cut;
   ClipScratch scratch;
-  const double tolerance_m = 1e-9 * std::cbrt(volume_m3);
+  const double tolerance_m = 1e-9 * cube_root(volume_m3);
   const auto keep = [&](const Plane& plane) {
     const PlaneSide side = clip(part_P, plane, PlaneId{}, tolerance_m, cut, scratch);
     if (side == PlaneSide::kCut) std::swap(part_P, cut);
@@ -128,7 +129,7 @@ void add_plug(const Convex& convex, const Material& material, const StructureImp
   if (!command.plug) return;
   command.X_RP = X_RP;
   const double widest_m = std::max(command.plug->reach_m, command.plug->section_reach_m());
-  command.radius_m = kPlugSphereScale * std::hypot(widest_m, command.plug->depth_m);
+  command.radius_m = kPlugSphereScale * hypotenuse(widest_m, command.plug->depth_m);
 }
 
 class PatternBreaker final : public Breaker {

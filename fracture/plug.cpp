@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/base/roots.h"
 #include "fracture/tuning.h"
 
 namespace sunder::fracture {
@@ -46,8 +47,9 @@ Mat3 axes_along(const Vec3& y, const Vec3& near_x) {
 double crack_length_m(const Plug& plug, double radius_m, int rings) {
   double length_m = static_cast<double>(plug.section_m.size()) * (plug.reach_m - radius_m);
   for (int ring = 0; ring <= rings; ++ring)
-    length_m += 2 * std::numbers::pi * radius_m *
-                std::pow(plug.reach_m / radius_m, static_cast<double>(ring) / std::max(1, rings));
+    length_m +=
+        2 * std::numbers::pi * radius_m *
+        positive_power(plug.reach_m / radius_m, static_cast<double>(ring) / std::max(1, rings));
   return length_m;
 }
 
@@ -81,7 +83,7 @@ bool become_crater(const StructureImpact& hit, double& width_m, double& area_m2,
   const double scale = std::sqrt(part * (2 - part));
   for (Vec2& corner : plug.section_m) corner *= scale;
   width_m *= scale, area_m2 *= scale * scale;
-  const double size_m = std::cbrt(hit.volume_m3);
+  const double size_m = cube_root(hit.volume_m3);
   return hit.confined || !(area_m2 > kMaxCraterShare * size_m * size_m);
 }
 
@@ -92,8 +94,8 @@ double perforation_energy_J(const Material& material, double width_m, double thi
   if (!(material.compressive_Pa > 0) || thickness_m < kMinPlugThickness * width_m) return 0;
   const double slenderness = width_m * thickness_m * thickness_m / mass_kg;
   const double squared_m2_s2 = 1.7 * (material.reinforcement_percent + 0.3) *
-                               material.compressive_Pa * std::cbrt(material.density_kg_m3) *
-                               slenderness * std::cbrt(slenderness);
+                               material.compressive_Pa * cube_root(material.density_kg_m3) *
+                               slenderness * cube_root(slenderness);
   return 0.5 * mass_kg * squared_m2_s2;
 }
 

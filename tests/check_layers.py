@@ -71,6 +71,14 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 # The path of a file from the root, in a page or a comment.
 MENTION = re.compile(r"(?<![\w./*])((?:%s|docs|cmake)/[\w/-]+\.(?:h|cpp|py|md|toml|sh|cmake))\b"
                      % "|".join(MODULES))
+# Functions and types of the standard library whose results differ between processors, compilers or
+# libraries, and the sources that may use them, because they simulate nothing.
+UNEQUAL = re.compile(r"\bstd::((?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:2|10|1p)?|pow|cbrt|"
+                     r"hypot|fma|erfc?|[lt]gamma)[fl]?(?=\()|hash\b|shuffle\b|random_device\b|"
+                     r"\w+_distribution\b)")
+SIMULATING = ("engine/", "fracture/", "solver/", "scenes/")
+NOT_SIMULATING = ("engine/io/scene_export/", "scenes/app/", "scenes/report/", "scenes/timing/",
+                  "scenes/trade/")
 PRAGMA_OMP = re.compile(r"^\s*#\s*pragma\s+omp\b", re.MULTILINE)
 
 
@@ -152,6 +160,9 @@ def check_source(root, path):
                      else check_own_include(root, path, target))
     if PRAGMA_OMP.search(text) and not str(path).startswith(("engine/base/parallel", "solver/")):
         found.append("OpenMP pragmas are allowed only in engine/base/parallel and the solver")
+    if str(path).startswith(SIMULATING) and not str(path).startswith(NOT_SIMULATING):
+        found += [f"std::{name} differs between machines: use engine/base"
+                  for name in sorted({match[1] for match in UNEQUAL.finditer(text)})]
     lines = text.splitlines() or [""]
     if path.suffix == ".h":
         if not lines[0].startswith("//"):

@@ -30,7 +30,8 @@ GOOD = {
     "solver/rigid/body/low.h": HEADER + '#include "solver/rigid/tuning.h"\n',
     "render/r.h": HEADER + '#include <GL/glcorearb.h>\n#include "engine/world/w.h"\n',
     "scenes/s.h": HEADER + '#include <toml++/toml.h>\n#include "fracture/f.h"\n',
-    "scenes/app/app.h": HEADER + '#include "scenes/s.h"\n#include "scenes/timing/time.h"\n',
+    "scenes/app/app.h": HEADER + '#include "scenes/s.h"\n#include "scenes/timing/time.h"\n'
+                        'inline double half_width(double angle) { return std::tan(0.5 * angle); }\n',
     "scenes/timing/time.h": HEADER + '#include "scenes/report/page.h"\n',
     "scenes/report/page.h": HEADER + '#include "render/r.h"\n',
     "bench/b.h": HEADER + '#include <benchmark/benchmark.h>\n#include "tests/fixtures/f.h"\n',
@@ -105,6 +106,12 @@ BAD = {
         ("engine/base/b.cpp", "int b;\n", "listed in no CMakeLists.txt"),
     "a source outside the modules":
         ("main.cpp", "int main() {}\n", "outside the modules"),
+    "a root of the C library":
+        ("solver/rigid/b.h", HEADER + "inline double b(double x) { return std::cbrt(x); }\n",
+         "std::cbrt differs between machines"),
+    "a distribution of random numbers":
+        ("fracture/b.h", HEADER + "inline std::normal_distribution<> b;\n",
+         "std::normal_distribution differs between machines"),
     "a header without a guard":
         ("fracture/b.h", "// A description.\n", "no #pragma once"),
     "a page that names a file that does not exist":

@@ -22,6 +22,12 @@ double natural_logarithm(double x) {
   return power * kLn2High + (2 * t * sum + power * kLn2Low);
 }
 
+double binary_logarithm(double x) {
+  int power = 0;
+  const double mantissa = 2 * std::frexp(x, &power);  // 1 to 2
+  return (power - 1) + natural_logarithm(mantissa) / std::numbers::ln2;
+}
+
 double exponential(double x) {
   const double power = std::floor(x / std::numbers::ln2 + 0.5);
   const double rest = (x - power * kLn2High) - power * kLn2Low;  // |rest| <= 0.35

@@ -231,10 +231,14 @@ std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, dou
 
 std::string cpu_name() {
   std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  std::string arm;  // which has numbers in place of a name
+  for (std::string line; std::getline(in, line) && !line.empty();) {
+    const std::string value = line.substr(std::min(line.find(':') + 2, line.size()));
+    if (line.starts_with("model name")) return value;
+    if (line.starts_with("CPU implementer")) arm = "ARM, implementer " + value;
+    if (line.starts_with("CPU part")) arm += ", part " + value;
   }
-  return "unknown";
+  return arm.empty() ? "unknown" : arm;
 }
 
 double quantile(std::vector<double> values, double q) {

@@ -1,10 +1,10 @@
 #include "engine/model/compound.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "engine/base/check.h"
+#include "engine/base/roots.h"
 #include "engine/geometry/inertia.h"
 #include "engine/geometry/polygon_mesh.h"
 
@@ -47,7 +47,7 @@ double mean_thickness_m(const Convex& convex) {
 }
 
 bool is_thin(const Convex& convex) {
-  return mean_thickness_m(convex) < kMaxThinness * std::cbrt(convex.solid.volume_m3);
+  return mean_thickness_m(convex) < kMaxThinness * cube_root(convex.solid.volume_m3);
 }
 
 bool Compound::is_anchored() const {

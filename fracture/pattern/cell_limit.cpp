@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/roots.h"
 #include "fracture/tuning.h"
 
 namespace sunder::fracture {
@@ -20,7 +21,7 @@ struct BrokenPart {
   /// Radius of the part of a plate, or of a solid as a cylinder of the depth below.
   double radius_m() const { return std::sqrt(volume_m3 / (std::numbers::pi * depth_m())); }
   /// Depth along the axis of webs and sectors.
-  double depth_m() const { return thickness_m > 0 ? thickness_m : std::cbrt(volume_m3); }
+  double depth_m() const { return thickness_m > 0 ? thickness_m : cube_root(volume_m3); }
 };
 
 /// Returns the area of the cracks between the cells of a pattern, each counted once.
@@ -33,11 +34,11 @@ double crack_m2(const PatternSpec& pattern, const BrokenPart& broken) {
     case Kind::kRadial:
       return cells * broken.radius_m() * broken.depth_m();
     case Kind::kSlabs:
-      return cells * std::cbrt(broken.volume_m3 * broken.volume_m3);
+      return cells * cube_root(broken.volume_m3 * broken.volume_m3);
     case Kind::kGrid:
-      return 3 * cells * broken.volume_m3 / std::cbrt(broken.sphere_m3);
+      return 3 * cells * broken.volume_m3 / cube_root(broken.sphere_m3);
     default:  // Half the mean surface of a Poisson-Voronoi cell, which is 5.82 of its volume^(2/3).
-      return 2.91 * std::cbrt(cells / broken.sphere_m3) * broken.volume_m3;
+      return 2.91 * cube_root(cells / broken.sphere_m3) * broken.volume_m3;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/random.h"
+#include "engine/base/roots.h"
 #include "fracture/pattern/pattern.h"
 #include "fracture/tuning.h"
 
@@ -25,7 +26,7 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
   const double widest = std::max(1.0, plug.reach_m / plug.section_reach_m());
   double inner = 1;
   for (int ring = 1; ring <= plug.rings; ++ring) {
-    const double outer = std::pow(widest, static_cast<double>(ring) / plug.rings);
+    const double outer = positive_power(widest, static_cast<double>(ring) / plug.rings);
     add(outer, kPlugRingJitter * (outer - inner));
     inner = outer;
   }

@@ -21,8 +21,9 @@ void split(Pattern& pattern, std::vector<PlaneId>& sides, int count, double jitt
   const Vec3 extent = box.extent();
   const bool across_y = extent.y() * kSlabPreference >= extent.z();
   const Vec3 straight = across_y ? Vec3::UnitY() : Vec3::UnitZ();
-  const Vec3 tilt(kSlabTiltAlong * random.uniform(-1, 1), kSlabTiltAcross * random.uniform(-1, 1),
-                  kSlabTiltAcross * random.uniform(-1, 1));
+  Vec3 tilt;  // drawn in a fixed order, independent of the compiler
+  for (int axis = 2; axis >= 0; --axis)
+    tilt[axis] = (axis == 0 ? kSlabTiltAlong : kSlabTiltAcross) * random.uniform(-1, 1);
   const Vec3 normal = (straight + jitter * tilt).normalized();
   const int low_count = count / 2;
   const double share = static_cast<double>(low_count) / count - 0.5;

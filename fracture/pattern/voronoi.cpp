@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/roots.h"
 #include "engine/geometry/bvh.h"
 #include "engine/geometry/clip.h"
 #include "fracture/pattern/pattern.h"
@@ -94,7 +95,7 @@ std::vector<ConvexPolyhedron> voronoi_cells(std::span<const Vec3> sites,
   for (std::size_t i = 0; i < sites.size(); ++i) points[i].extend(sites[i]);
   const Bvh tree(points);
   const Vec3 extent = bounds(solid).extent();
-  const double ring_m = 2 * std::cbrt(extent.prod() / static_cast<double>(sites.size() + 1));
+  const double ring_m = 2 * cube_root(extent.prod() / static_cast<double>(sites.size() + 1));
   const double tolerance = 1e-14 * extent.maxCoeff();
   std::vector<ConvexPolyhedron> cells(sites.size());
   for_chunks(sites.size(), 32, [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/base/roots.h"
 #include "fracture/adjacency/adjacency.h"
 #include "fracture/adjacency/overlap.h"
 #include "fracture/stress/strength.h"
@@ -25,7 +26,7 @@ bool has_face(const Convex& convex, PlaneId id) {
 /// Returns true if a face of `polyhedron` lies in a face of the convex that encloses `polyhedron`.
 bool lies_on_surface(const ConvexPolyhedron& polyhedron, std::size_t face,
                      const Convex& enclosing) {
-  const double tolerance_m = kMinRelativeThickness * std::cbrt(enclosing.solid.volume_m3);
+  const double tolerance_m = kMinRelativeThickness * cube_root(enclosing.solid.volume_m3);
   return std::ranges::any_of(enclosing.polyhedron.faces, [&](const auto& other) {
     return std::ranges::all_of(polyhedron.face_corners(face), [&](std::uint32_t v) {
       return other.plane.distance(polyhedron.vertices[v]) > -tolerance_m;
@@ -111,7 +112,7 @@ double overlap_utilisation(const Compound& compound, const Ghost& ghost, const W
   const double section_m2 = surface.vector_area_m2.norm();
   // A square section of this area has the section modulus A^(3/2) / 6.
   const auto bending_Pa = [&](double area_m2) {
-    return 6 * wrench.moment_Nm.norm() / std::pow(area_m2, 1.5);
+    return 6 * wrench.moment_Nm.norm() / (area_m2 * std::sqrt(area_m2));
   };
   if (section_m2 < kMaxThroughRatio * surface.area_m2) {
     return std::max(bending_Pa(surface.area_m2) / strength.compressive_Pa,
@@ -128,7 +129,7 @@ double overlap_utilisation(const Compound& compound, const Ghost& ghost, const W
 BreakEdit open_overlap(const Structure& structure, ConvexSlot a, ConvexSlot b) {
   const ConvexSlot cut = choose_cut(structure, a, b);
   const Convex& old = *structure.convex(cut);
-  const double thinnest_m = kMinRelativeThickness * std::cbrt(old.solid.volume_m3);
+  const double thinnest_m = kMinRelativeThickness * cube_root(old.solid.volume_m3);
   // The other convex of the overlap; none() if a third convex is cut.
   const ConvexSlot other_of_overlap = cut == a ? b : cut == b ? a : ConvexSlot();
 

@@ -9,6 +9,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "engine/base/roots.h"
 #include "fracture/tuning.h"
 
 namespace sunder::fracture {
@@ -195,7 +196,7 @@ std::vector<Vec3> Sections::axes_around(std::uint32_t bond) {
   const Vec3& point_R = system_.geometry()[bond].centroid_R;
   double cell_m = 0;
   for (const std::uint32_t c : {own.a, own.b})
-    cell_m = std::max(cell_m, std::cbrt(compound_.convexes[c]->solid.volume_m3));
+    cell_m = std::max(cell_m, cube_root(compound_.convexes[c]->solid.volume_m3));
   std::vector<std::uint32_t> near = {own.a, own.b};
   ++search_;
   for (const std::uint32_t c : near) seen_convex_[c] = search_;

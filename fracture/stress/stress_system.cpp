@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/roots.h"
 #include "fracture/tuning.h"
 
 namespace sunder::fracture {
@@ -18,7 +19,7 @@ constexpr double kForceRounding = 1e-11;
 std::vector<double> cell_sizes(const Compound& compound) {
   std::vector<double> own, largest;
   for (std::size_t c = 0; c < compound.convexes.size(); ++c) {
-    own.push_back(compound.anchored[c] ? 0 : std::cbrt(compound.convexes[c]->solid.volume_m3));
+    own.push_back(compound.anchored[c] ? 0 : cube_root(compound.convexes[c]->solid.volume_m3));
   }
   largest = own;
   for (const Bond& bond : compound.bonds) {
@@ -142,7 +143,7 @@ void StressSystem::make_bonds(const Compound& compound, std::span<const Material
 Spring StressSystem::spring_of(const Ghost& ghost, std::size_t i,
                                std::span<const Material> materials) const {
   const Convex& common = *ghost.convex;
-  const double edge = std::cbrt(std::max(common.solid.volume_m3, 1e-300));
+  const double edge = cube_root(std::max(common.solid.volume_m3, 1e-300));
   const double stretch = materials[common.material.value].youngs_Pa * edge;
   return {node_of_convex_[ghost.of[0]], node_of_convex_[ghost.of[i]], common.solid.centroid,
           stretch, stretch * edge * edge / 6 * Mat3::Identity()};

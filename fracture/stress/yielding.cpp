@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
+#include "engine/base/roots.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/stress/bond_geometry.h"
 #include "fracture/tuning.h"
@@ -243,7 +244,7 @@ PlasticHinge Yielding::hinge(const Section& section) const {
     const Bond& bond = compound_.bonds[crossing.bond];
     for (const Vec3& corner : bond_corners(compound_, bond)) {
       const Vec3 arm = section.strength.axes_R.transpose() * (corner - section.centroid_R);
-      const Vec3 across(std::hypot(arm.y(), arm.z()), std::abs(arm.z()), std::abs(arm.y()));
+      const Vec3 across(hypotenuse(arm.y(), arm.z()), std::abs(arm.z()), std::abs(arm.y()));
       hinge.section.reach_m = hinge.section.reach_m.cwiseMax(across);
     }
     for (const std::uint32_t c : {bond.a, bond.b}) {

@@ -1,7 +1,6 @@
 #include "fracture/vacd/vacd.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -84,7 +83,8 @@ double drop_inside_out(const RepairedMesh& mesh, std::vector<VacdPiece>& pieces)
   constexpr double kRounding = 1e-15;  // Least volume, over the cube of the mesh's diagonal.
   Box box;
   for (const PolygonMesh& shell : mesh.shells) box.extend(bounds(shell));
-  const double least_m3 = kRounding * std::pow(box.extent().norm(), 3);
+  const double size_m = box.extent().norm();
+  const double least_m3 = kRounding * size_m * size_m * size_m;
   std::vector<double> volume(pieces.size());
   for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
     volume[p] = mass_properties(pieces[p].mesh).volume_m3;

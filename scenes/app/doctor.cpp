@@ -65,10 +65,22 @@ void report_build(Report& report) {
   report.figures["/build/python"] = info.has_python;
 }
 
+/// Returns the name of the vector instructions that the contact solver uses for `lanes` lanes.
+const char* instructions_of([[maybe_unused]] int lanes) {
+#if defined(__x86_64__)
+  return lanes == 16 ? "AVX-512" : lanes == 8 ? "AVX2" : "SSE2";
+#elif defined(__aarch64__)
+  return "NEON";
+#else
+  return "vectors of the compiler";
+#endif
+}
+
 void check_processor(Report& report) {
   const int lanes = solver::lanes_in_use(0);
-  report.findings.push_back(
-      {"processor", State::kGood, cpu_name() + ", " + std::to_string(lanes) + " lanes in use"});
+  report.findings.push_back({"processor", State::kGood,
+                             cpu_name() + ", " + std::to_string(lanes) + " lanes in use (" +
+                                 instructions_of(lanes) + ")"});
   report.findings.push_back({"threads", State::kGood, std::to_string(threads())});
   report.figures["/cpu"] = cpu_name();
   report.figures["/lanes"] = std::int64_t{lanes};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/check.h"
+#include "engine/base/exponential.h"
 #include "engine/geometry/prism.h"
 
 namespace sunder::scenes {
@@ -96,7 +97,7 @@ double planar_piece_m(const Scene& scene) {
   double logs = 0;
   std::size_t count = 0;
   const auto add = [&](double size_m) {
-    logs += std::log2(size_m);
+    logs += binary_logarithm(size_m);
     ++count;
   };
   for (const Solid& solid : scene.solids) {

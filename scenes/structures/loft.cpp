@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/base/roots.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/double_area.h"
 #include "engine/geometry/hull.h"
@@ -155,7 +156,7 @@ std::vector<Vec2> fluted(int flutes, int segments, double depth) {
 ConvexPolyhedron prism_around(std::span<const Ring> rings, int sides) {
   double radius = 0;
   for (const Ring& ring : rings) {
-    for (const Vec3& p : ring) radius = std::max(radius, std::hypot(p.x(), p.z()));
+    for (const Vec3& p : ring) radius = std::max(radius, hypotenuse(p.x(), p.z()));
   }
   radius /= sin_cos(kCircle / (2 * sides)).cos;
   std::vector<Vec2> plan;

@@ -74,7 +74,8 @@ DebrisBirth chip_from(const ExposedPolygon& face, double area_m2, Random& random
   const Vec3 velocity = face.motion(point) + speed * (face.normal_W + random.direction());
   const double radius = power_law(crumbling.debris_smallest_m, crumbling.debris_largest_m, random);
   const Vec3 center = point + radius * face.normal_W;
-  const Vec3 spin = kMaxChipSpin_s * random.uniform() * random.direction();
+  const double spin_s = kMaxChipSpin_s * random.uniform();
+  const Vec3 spin = spin_s * random.direction();
   return {center.cast<float>(),
           velocity.cast<float>(),
           spin.cast<float>(),

@@ -1,7 +1,9 @@
 // Tests of engine/base: indices, hashes, random numbers, trigonometry, poses, parallel loops.
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -11,10 +13,13 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "engine/base/exponential.h"
 #include "engine/base/hash.h"
 #include "engine/base/loop_count.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
+#include "engine/base/roots.h"
+#include "engine/base/rotation.h"
 #include "engine/base/trace.h"
 #include "engine/base/trigonometry.h"
 #include "engine/base/types.h"
@@ -128,6 +133,64 @@ TEST(SinCos, AgreesWithTheCLibraryTo1e15) {
 TEST(SinCos, OfZeroIsExact) {
   EXPECT_EQ(sin_cos(0).sin, 0);
   EXPECT_EQ(sin_cos(0).cos, 1);
+}
+
+TEST(CubeRoot, AgreesWithTheCLibraryTo3e16) {
+  Random random(10);
+  for (int i = 0; i < 100000; ++i) {
+    const double x = std::exp(random.uniform(-700, 700)) * (i % 2 == 0 ? 1 : -1);
+    const long double exact = std::cbrt(static_cast<long double>(x));
+    ASSERT_LT(std::abs(static_cast<double>(cube_root(x) / exact - 1)), 3e-16) << x;
+  }
+  for (const double x : {1.0, 2.0, -3.0, 0.5}) EXPECT_EQ(cube_root(x * x * x), x);
+}
+
+TEST(CubeRoot, OfZeroAndInfinityIsTheSame) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double x : {0.0, infinity, -infinity}) EXPECT_EQ(cube_root(x), x);
+  EXPECT_NEAR(cube_root(5e-324) / std::cbrt(5e-324), 1, 1e-15);
+}
+
+TEST(Hypotenuse, AgreesWithTheCLibraryTo3e16) {
+  Random random(11);
+  for (int i = 0; i < 100000; ++i) {
+    const double a = std::exp(random.uniform(-300, 300)), b = a * random.uniform(-10, 10);
+    const long double exact = std::hypot(static_cast<long double>(a), static_cast<long double>(b));
+    ASSERT_LT(std::abs(static_cast<double>(hypotenuse(a, b) / exact - 1)), 3e-16) << a << " " << b;
+  }
+}
+
+TEST(PositivePower, AgreesWithTheCLibrary) {
+  Random random(12);
+  for (int i = 0; i < 100000; ++i) {
+    const double base = std::exp(random.uniform(-10, 10)), exponent = random.uniform(-60, 60);
+    const double exact = std::pow(base, exponent), bound = 3e-15 * (1 + std::abs(std::log(exact)));
+    ASSERT_LT(std::abs(positive_power(base, exponent) / exact - 1), bound)
+        << base << " " << exponent;
+  }
+  EXPECT_EQ(positive_power(3, 0), 1);
+}
+
+TEST(BinaryLogarithm, IsExactForPowersOfTwo) {
+  for (int i = -1000; i <= 1000; ++i) EXPECT_EQ(binary_logarithm(std::ldexp(1, i)), i);
+  EXPECT_NEAR(binary_logarithm(10), std::log2(10), 4e-15);
+}
+
+TEST(MathFunctions, HaveTheSameBitsOnEveryMachine) {
+  Random random(13);
+  std::uint64_t hash = 0;
+  const auto take = [&](double x) { hash = combine(hash, std::bit_cast<std::uint64_t>(x)); };
+  for (int i = 0; i < 10000; ++i) {
+    const double x = random.uniform(-100, 100), y = random.uniform(-100, 100);
+    const SinCos both = sin_cos(x);
+    take(both.sin), take(both.cos), take(arc_tangent(y, x));
+    take(exponential(x)), take(natural_logarithm(x * x)), take(binary_logarithm(y * y));
+    take(cube_root(x)), take(hypotenuse(x, y)), take(positive_power(x * x, 0.1 * y));
+    const Quat turn = rotation_by({x, y, 1});
+    for (int k = 0; k < 4; ++k) take(turn.coeffs()[k]);
+    for (int k = 0; k < 3; ++k) take(rotation_vector(turn)[k]);
+  }
+  EXPECT_EQ(hash, 0x07b4102584714eeeULL);
 }
 
 TEST(Pose, TimesItsInverseIsTheIdentity) {

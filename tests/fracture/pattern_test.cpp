@@ -1,12 +1,15 @@
 // Tests that patterns tile their box, and of their numbers and sizes of cells.
 #include "fracture/pattern/pattern.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "engine/base/hash.h"
 #include "tests/fracture/solids.h"
 
 namespace sunder::fracture {
@@ -70,6 +73,18 @@ TEST(Pattern, of_every_other_kind_tiles_its_box) {
   EXPECT_EQ(slabs.cells.size(), 20u + 6);
   expect_tiling(slabs);
   expect_tiling(web_pattern(1, 9, 0.3, 1));
+}
+
+TEST(Pattern, has_the_same_bits_on_every_machine) {
+  std::uint64_t hash = 0;
+  for (const Pattern& pattern :
+       {voronoi_pattern(50, 2, false, 1), web_pattern(4, 9, 0.3, 1), slab_pattern(20, 0.3, 1)}) {
+    for (const Plane& plane : pattern.planes) {
+      for (const double x : plane.normal) hash = combine(hash, std::bit_cast<std::uint64_t>(x));
+      hash = combine(hash, std::bit_cast<std::uint64_t>(plane.d));
+    }
+  }
+  EXPECT_EQ(hash, 0x74b706089475b213ULL);
 }
 
 TEST(Pattern, of_bricks_has_a_bounded_number_of_cells) {

@@ -1,8 +1,8 @@
 // The last steps of outer_surface(): common edges are divided, and faces become a mesh.
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
+#include "engine/base/trigonometry.h"
 #include "engine/geometry/walls/piece_surface.h"
 
 namespace sunder {
@@ -95,7 +95,7 @@ class VertexSeparator {
     for (const HalfEdge& edge : around) {
       const Vec3 normal = surface_.faces[edge.face].plane.normal;
       const Vec3 inward = is_forward(edge) ? normal.cross(along) : along.cross(normal);
-      order.emplace_back(std::atan2(y.dot(inward), x.dot(inward)), &edge);
+      order.emplace_back(arc_tangent(y.dot(inward), x.dot(inward)), &edge);
     }
     // Solid is at smaller angles than a forward face, and at larger angles than a backward face.
     std::stable_sort(order.begin(), order.end(),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/base/trigonometry.h"
 #include "engine/geometry/walls/piece_surface.h"
 
 namespace sunder {
@@ -87,7 +88,7 @@ class ContourTracer {
       const auto i = static_cast<std::size_t>(it - edges_.begin());
       if (used_[i]) continue;
       const Vec2 out = at(it->to) - at(it->from);
-      double angle = std::atan2(-cross(back, out), back.dot(out));  // clockwise
+      double angle = arc_tangent(-cross(back, out), back.dot(out));  // clockwise
       if (angle <= 0) angle += 2 * EIGEN_PI;
       if (best != edges_.size() && angle >= least) continue;
       best = i;

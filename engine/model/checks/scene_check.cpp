@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/roots.h"
 #include "engine/model/checks/item_check.h"
 
 namespace sunder {
@@ -54,7 +55,7 @@ class SceneCheck : private ItemCheck {
     for (const Solid& solid : scene_.solids) {
       const Material& material = scene_.materials[solid.compound.convexes[0]->material.value];
       if (!material.breakable() && !material.breaks_by_load()) continue;
-      most = std::max(most, std::cbrt(volume(solid.compound) / material.smallest_piece_m3));
+      most = std::max(most, cube_root(volume(solid.compound) / material.smallest_piece_m3));
     }
     const double factor = scene_.limits.piece_size_factor;
     if (factor > 1 && most > 0 && factor > most)

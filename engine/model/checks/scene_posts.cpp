@@ -10,6 +10,8 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/base/roots.h"
+#include "engine/base/trigonometry.h"
 #include "engine/geometry/bvh.h"
 
 namespace sunder {
@@ -37,7 +39,7 @@ std::optional<Axes> axes_of(const Scene& scene) {
   Axes axes;
   const double most = scene.gravity_W.cwiseAbs().maxCoeff(&axes.up);
   axes.a = (axes.up + 1) % 3, axes.b = (axes.up + 2) % 3;
-  const double across = std::hypot(scene.gravity_W[axes.a], scene.gravity_W[axes.b]);
+  const double across = hypotenuse(scene.gravity_W[axes.a], scene.gravity_W[axes.b]);
   if (across > kMaxObliquity * most) return {};
   axes.sign = scene.gravity_W[axes.up] < 0 ? 1 : -1;
   return axes;
@@ -195,7 +197,7 @@ struct Section {
     const Eigen::Matrix2d central = second - first * first.transpose() / stiffness_N;
     if (planar) return axes.a == 2 ? central(1, 1) : central(0, 0);
     const double mean = 0.5 * central.trace();
-    return mean - std::hypot(0.5 * (central(0, 0) - central(1, 1)), central(0, 1));
+    return mean - hypotenuse(0.5 * (central(0, 0) - central(1, 1)), central(0, 1));
   }
 
  private:
@@ -230,7 +232,7 @@ struct Column {
     const double step_m = height_m / kLevels;
     std::array<double, kLevels> u, curvature, slope, next;
     for (std::size_t i = 0; i < u.size(); ++i)
-      u[i] = std::cos(0.5 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kLevels);
+      u[i] = sin_cos(0.5 * std::numbers::pi * (static_cast<double>(i) + 0.5) / kLevels).cos;
     double load_N = 0;
     for (int k = 0; k < kIterations; ++k) {
       double sum = 0, work = 0, flexible_work = 0;

@@ -1,11 +1,11 @@
 #include "engine/world/act/charge.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <span>
 
 #include "engine/base/exponential.h"
+#include "engine/base/roots.h"
 
 namespace sunder {
 namespace {
@@ -41,7 +41,7 @@ double ground_kg(double tnt_kg, BurstKind burst) {
 }  // namespace
 
 WaveImpulse wave_impulse(double tnt_kg, BurstKind burst, double distance_m) {
-  const double scale = std::cbrt(ground_kg(tnt_kg, burst));
+  const double scale = cube_root(ground_kg(tnt_kg, burst));
   const double z = std::max(kMinScaledDistance, distance_m / scale);
   if (z > kMaxScaledDistance) return {};
   const double log_z = natural_logarithm(z) / std::numbers::ln10;
@@ -52,7 +52,7 @@ WaveImpulse wave_impulse(double tnt_kg, BurstKind burst, double distance_m) {
 }
 
 double wave_reach_m(double tnt_kg, BurstKind burst) {
-  return kMaxScaledDistance * std::cbrt(ground_kg(tnt_kg, burst));
+  return kMaxScaledDistance * cube_root(ground_kg(tnt_kg, burst));
 }
 
 double reach_m(const Blast& blast) {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "engine/base/roots.h"
 #include "engine/base/types.h"
 #include "engine/model/breaker.h"
 #include "engine/model/compound.h"
@@ -93,7 +93,7 @@ struct Actor {
 inline constexpr std::uint32_t kNoActorKey = 0xfffffffe;
 
 inline double ball_radius_m(double volume_m3) {
-  return std::cbrt(volume_m3 * 3 / (4 * std::numbers::pi));
+  return cube_root(volume_m3 * 3 / (4 * std::numbers::pi));
 }
 
 /// Pose of a rest frame, and the velocity field of what is fixed to it.

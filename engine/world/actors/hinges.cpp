@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/base/roots.h"
 #include "engine/model/breaker.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/actors/world_state.h"
@@ -19,9 +20,9 @@ double strain_of(const PlasticSection& section, const PlasticFlow& flow) {
   const Mat3& axes = section.strength.axes_R;
   const Vec3 drawn = axes.transpose() * flow.displacement_R;
   const Vec3 turned = (axes.transpose() * flow.turn_R).cwiseProduct(section.reach_m);
-  const double along = std::abs(drawn.x()) + std::hypot(turned.y(), turned.z());
-  const double across = std::hypot(drawn.y(), drawn.z()) + std::abs(turned.x());
-  return std::hypot(along, across / std::numbers::sqrt3) / section.gauge_m;
+  const double along = std::abs(drawn.x()) + hypotenuse(turned.y(), turned.z());
+  const double across = hypotenuse(drawn.y(), drawn.z()) + std::abs(turned.x());
+  return hypotenuse(along, across / std::numbers::sqrt3) / section.gauge_m;
 }
 
 HingeSide side_of(const BreakEdit& edit, const Structure& structure, const PlasticHinge& hinge,

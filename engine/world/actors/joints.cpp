@@ -1,11 +1,11 @@
 #include "engine/world/actors/joints.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "engine/base/roots.h"
 #include "engine/world/tuning.h"
 
 namespace sunder {
@@ -17,7 +17,7 @@ const Actor* actor_at(std::span<const Actor* const> actors, const Vec3& point_R)
   double least = std::numeric_limits<double>::infinity();
   for (const Actor* actor : actors) {
     const double distance = distance_to(actor->structure, point_R);
-    if (distance >= least || distance > kAnchorTolerance * std::cbrt(actor->volume_m3)) continue;
+    if (distance >= least || distance > kAnchorTolerance * cube_root(actor->volume_m3)) continue;
     least = distance;
     nearest = actor;
   }

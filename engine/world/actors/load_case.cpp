@@ -1,9 +1,10 @@
 #include "engine/world/actors/load_case.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
+
+#include "engine/base/roots.h"
 
 namespace sunder {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kInside = 1e-2;
 double local_thickness_m(const Structure& structure, ConvexSlot slot, const Vec3& point_R) {
   const Convex& convex = *structure.convex(slot);
   const Vec3 from_R = point_R + kInside * (convex.solid.centroid - point_R);
-  double radius_m = 2 * std::cbrt(convex.solid.volume_m3);
+  double radius_m = 2 * cube_root(convex.solid.volume_m3);
   for (;; radius_m *= 2) {
     double least_m = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {

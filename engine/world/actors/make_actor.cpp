@@ -1,10 +1,10 @@
 #include "engine/world/actors/make_actor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "engine/base/roots.h"
 #include "engine/model/piece_mesh.h"
 #include "engine/world/tuning.h"
 
@@ -101,7 +101,7 @@ void set_least(const WorldState& world, Actor& actor) {
     const double least_m3 = world.smallest_piece_factor * material.min_breakable_volume_m3();
     if (!material.breakable() || actor.volume_m3 < least_m3) continue;
     const double reach_m3 = reached_m3(material, actor.volume_m3);
-    const double crack_m2 = kMinCrackArea * std::cbrt(reach_m3 * reach_m3);
+    const double crack_m2 = kMinCrackArea * cube_root(reach_m3 * reach_m3);
     actor.least_J = std::min(actor.least_J, material.toughness_J_m2 * crack_m2);
     double limit_Pa = material.impact_limit_Pa(false);
     if (may_bend) limit_Pa = std::min(limit_Pa, material.impact_limit_Pa(true));

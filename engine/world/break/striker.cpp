@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/base/roots.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/prism.h"
 #include "engine/world/actors/make_actor.h"
@@ -40,7 +41,7 @@ std::pair<Vec3, Vec3> axes_across(const Vec3& direction) {
 
 /// Returns true if a piece of the solid reaches into the prism that the striker sweeps.
 bool is_in_prism(const SweptPrism& prism, const Vec3& com_R, double volume_m3) {
-  const double reach_m = 0.5 * std::cbrt(volume_m3);
+  const double reach_m = 0.5 * cube_root(volume_m3);
   const double along_m = (com_R - prism.point_R).dot(prism.direction_R);
   if (along_m > prism.thickness_m) return false;
   for (std::size_t i = 0; i < prism.section_R.size(); ++i) {

@@ -1,12 +1,12 @@
 #include "engine/world/load/load_stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/roots.h"
 #include "engine/base/trace.h"
 #include "engine/model/work_log.h"
 #include "engine/world/actors/load_case.h"
@@ -39,7 +39,7 @@ std::vector<AppliedForce> averaged(const WorldState& world, const Actor& actor,
   if (now.empty() && actor.stress.mean_forces.empty()) return {};
   const double dt = world.clock.dt_s, share = dt / (kForceAveragingTime_s + dt);
   const double negligible = kNegligibleLoad * weight_N(world, actor.weight.mass_kg);
-  const double size_m = std::cbrt(actor.volume_m3);
+  const double size_m = cube_root(actor.volume_m3);
   std::vector<AppliedForce> mean;
   auto old = actor.stress.mean_forces.begin();
   const auto end = actor.stress.mean_forces.end();
