@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "engine/base/trigonometry.h"
 
 namespace sunder {
 namespace {
@@ -48,7 +51,7 @@ GltfMaterials::UvTransform GltfMaterials::transform_of(const json& use) const {
   const std::vector<double> scale = data_.numbers(given, "scale", {1, 1});
   const double angle = data_.number(given, "rotation", 0);
   // Counter-clockwise in the image, where v points down.
-  const double c = std::cos(angle), s = std::sin(angle);
+  const auto [s, c] = sin_cos(std::remainder(angle, 2 * std::numbers::pi));
   UvTransform transform;
   transform << c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1];
   return transform;
