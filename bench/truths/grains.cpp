@@ -57,8 +57,8 @@ struct Heap {
 constexpr double kRadius_m = 0.25, kAspect = 1.5;
 
 /// Adds `count` grains of 6 cm above each other in a cylinder.
-std::vector<BodyId> pour(PresetWorld& world, int count) {
-  Random random(11);
+std::vector<BodyId> pour(PresetWorld& world, int count, std::uint64_t seed) {
+  Random random(seed);
   std::vector<BodyId> grains;
   for (int i = 0; i < count; ++i) {
     std::vector<Vec3> corners;
@@ -71,7 +71,7 @@ std::vector<BodyId> pour(PresetWorld& world, int count) {
   return grains;
 }
 
-Heap collapse(const Preset& preset) {
+Heap collapse(const Preset& preset, std::uint64_t seed) {
   PresetWorld world(preset);
   world.add(W::with_friction(W::ground(), 0.6));
   std::vector<BodyId> walls;
@@ -82,7 +82,7 @@ Heap collapse(const Preset& preset) {
     wall.X_WB.position = kRadius_m * out;
     walls.push_back(world.add(wall));
   }
-  const std::vector<BodyId> grains = pour(world, 1400);
+  const std::vector<BodyId> grains = pour(world, 1400, seed);
   world.run(2.5);
   // Grains above the height of the column are removed.
   std::vector<BodyId> column;
@@ -108,11 +108,18 @@ Heap collapse(const Preset& preset) {
   return {edge_m / kRadius_m - 1, std::atan(2 * height_m / radius_m) * 180 / kPi};
 }
 
+/// Returns the mean of three heaps, as slopes of single ones scatter by a degree.
 const Heap& heap(const Preset& preset) {
+  constexpr int kHeaps = 3;
   static std::map<std::string, Heap> cache;
   const auto [place, is_new] = cache.try_emplace(preset.name);
-  if (is_new) place->second = collapse(preset);
-  return place->second;
+  Heap& mean = place->second;
+  for (int i = 0; is_new && i < kHeaps; ++i) {
+    const Heap one = collapse(preset, 11 + static_cast<std::uint64_t>(i));
+    mean.runout += one.runout / kHeaps;
+    mean.slope_deg += one.slope_deg / kHeaps;
+  }
+  return mean;
 }
 
 double slope_off_mean_deg(const Preset& preset) {
@@ -129,9 +136,9 @@ Truths grain_truths() {
             domino_scales, {0.14, 0.075, 0.066, 0.01}),
       truth(19, "column of 1.5 that collapses: runout", "", "1.24 a, Lube et al. 2004", 0.15,
             [](const Preset& p) { return heap(p).runout / (1.24 * kAspect) - 1; },
-            {0.32, 0.23, 0.27, 0.4}),
+            {0.32, 0.26, 0.27, 0.4}),
       truth(20, "the same: slope of the heap, off the mean of all presets", "°",
-            "the same at every step", 1, slope_off_mean_deg, {1, 0.83, 0.29, 1}),
+            "the same at every step", 1, slope_off_mean_deg, {1, 0.83, 0.83, 1.3}),
   };
 }
 
