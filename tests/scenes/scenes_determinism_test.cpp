@@ -34,6 +34,7 @@ TEST_P(EveryScene, HasTheSameStateOnAnyThreadsAndLanes) {
                           std::to_string(frames_to_run(GetParam())) + " --threads ";
   const std::string one = state_hash(run + "1");
   EXPECT_EQ(state_hash(run + "2 --set solver.lanes=1"), one);
+  EXPECT_EQ(state_hash(run + "4 --set solver.lanes=4"), one);
   EXPECT_EQ(state_hash(run + "7 --set solver.lanes=8"), one);
 }
 
