@@ -147,13 +147,19 @@ TEST(FlushBoxes, OnlyCoveredFacesBecomeInterior) {
   EXPECT_EQ(inner, (std::vector<std::size_t>{1, 0}));
 }
 
-TEST(FlushBoxes, StayBondedAfterABreakBesideThem) {
+/// Returns a break by 40 Voronoi cells around a point.
+BreakCommand break_at(const Vec3& point_R, double radius_m) {
   BreakCommand command;
   command.event = command.seed = 1;
   command.pattern.kind = PatternSpec::Kind::kVoronoi;
   command.pattern.cells = 40;
-  command.X_RP.position = Vec3(2, 2, 0.5);
-  command.radius_m = 0.6;
+  command.X_RP.position = point_R;
+  command.radius_m = radius_m;
+  return command;
+}
+
+TEST(FlushBoxes, StayBondedAfterABreakBesideThem) {
+  const BreakCommand command = break_at(Vec3(2, 2, 0.5), 0.6);
   for (const Variant& variant : kVariants) {
     const Compound pair = compound_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 2, 1}}}, variant);
     const BreakPlan plan = fracture::break_compound(pair, command);
@@ -189,12 +195,7 @@ Compound uneven_pair() {
 TEST(FlushBoxes, AreCutWhereTheSideTheyShareIsUneven) {
   const Compound pair = uneven_pair();
   ASSERT_EQ(pair.bonds.size(), 1u);
-  BreakCommand command;
-  command.event = command.seed = 1;
-  command.pattern.kind = PatternSpec::Kind::kVoronoi;
-  command.pattern.cells = 40;
-  command.X_RP.position = Vec3(1.5, 0.5, 0.5);
-  command.radius_m = 2;
+  const BreakCommand command = break_at(Vec3(1.5, 0.5, 0.5), 2);
   const BreakPlan plan = fracture::break_compound(pair, command);
   EXPECT_EQ(plan.failed, 0u);
   EXPECT_GT(plan.pieces.size(), 10u);
