@@ -516,19 +516,18 @@ TEST(World, TwoWorldsInTwoThreadsGiveTheBitsOfEachAlone) {
 }
 
 TEST(World, ACopyGoesOnWithTheSameBits) {
-  constexpr int kFrames = 30;
   for (const char* name : {"brick_wall", "house", "wrecking_ball", "steel_hall"}) {
     World world = make_world(load_scene(name));
     run(world, 0.7);
     const World kept = world.copy();
     std::vector<std::uint64_t> hashes;
-    for (int i = 0; i < kFrames; ++i) {
+    for (int i = 0; i < 60; ++i) {
       world.step(kFrame_s);
       hashes.push_back(hash_of(world));
     }
     for (const bool again : {false, true}) {  // a kept world can be rolled back to more than once
       world = kept.copy();
-      for (int i = 0; i < kFrames; ++i) {
+      for (int i = 0; i < 60; ++i) {
         if (again) world.set_threads(1);
         world.step(kFrame_s);
         ASSERT_EQ(hash_of(world), hashes[static_cast<std::size_t>(i)]) << name << ", " << i;
@@ -589,7 +588,7 @@ TEST(World, ARestoredWorldGoesOnWithTheSameBits) {
     EXPECT_EQ(restored.events().hits.size(), world.events().hits.size());
     ASSERT_EQ(hash_of(restored), hash_of(world)) << name;
     restored.set_threads(1);
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 40; ++i) {
       world.step(kFrame_s);
       restored.step(kFrame_s);
       ASSERT_EQ(hash_of(restored), hash_of(world)) << name << ", frame " << i;
