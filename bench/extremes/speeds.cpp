@@ -26,7 +26,7 @@ structure = "pane"
 width_m = 3
 height_m = 2.6
 )";
-constexpr const char* kWall = R"(
+constexpr const char* kBrickWall = R"(
 [[solid]]
 structure = "box"
 material = "brick"
@@ -71,12 +71,12 @@ Truths speed_extremes() {
               &Run::energy_gained, {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(8, "1,000 m/s at a pane: speed lost, of 1,000 m/s", "", "a pane is thin", 0.2,
               shot_at(kPane), speed_lost, {0.16, 0.11, 0.13, 0.17}),
-      extreme(8, "1,000 m/s at a wall of brick: energy gained", "", none, 1e-3, shot_at(kWall),
+      extreme(8, "1,000 m/s at a wall of brick: energy gained", "", none, 1e-3, shot_at(kBrickWall),
               &Run::energy_gained, {0.0001, 0.0001, 0.0001, 0.0001}),
-      extreme(8, "1,000 m/s at a wall of brick: mass", "", "constant", 1e-9, shot_at(kWall),
+      extreme(8, "1,000 m/s at a wall of brick: mass", "", "constant", 1e-9, shot_at(kBrickWall),
               &Run::mass_error, {1e-10, 1e-10, 1e-10, 1e-10}),
-      extreme(8, "1,000 m/s at a wall of brick: overlap left", "mm", "rigid", 50, shot_at(kWall),
-              depth_left_mm, {43, 31, 50, 3.8}),
+      extreme(8, "1,000 m/s at a wall of brick: overlap left", "mm", "rigid", 50,
+              shot_at(kBrickWall), depth_left_mm, {43, 31, 50, 3.8}),
       extreme(8, "1,000 m/s at 90 loose bricks: energy gained", "", none, 1e-3, shot_at(kBricks),
               &Run::energy_gained, {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(8, "1,000 m/s at 90 loose bricks: overlap left", "mm", "rigid", 50, shot_at(kBricks),

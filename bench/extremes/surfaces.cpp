@@ -19,8 +19,8 @@ std::string heap(const char* material) {
   return text;
 }
 
-constexpr const char* kStack = "[[solid]]\nstructure = \"stack\"\nmaterial = \"steel\"\n";
-constexpr const char* kWall = R"(
+constexpr const char* kSteelStack = "[[solid]]\nstructure = \"stack\"\nmaterial = \"steel\"\n";
+constexpr const char* kFallingWall = R"(
 [[solid]]
 structure = "box"
 material = "brick"
@@ -110,11 +110,12 @@ Truths surface_extremes() {
   const char* elastic_ground = "ground.restitution=1";
   return {
       extreme(5, "stack of 10 without gravity, 5 s: moves", "mm", "rest", 2,
-              with_gravity(0, kStack, 5), moved_mm, {0.2, 0.2, 0.2, 0.2}),
+              with_gravity(0, kSteelStack, 5), moved_mm, {0.2, 0.2, 0.2, 0.2}),
       extreme(5, "ball at a wall that floats: momentum", "", "constant", 1.3e-5,
-              with_gravity(0, kWall, 1), &Run::momentum_error, {1.3e-05, 1.3e-06, 3.5e-06, 7e-06}),
+              with_gravity(0, kFallingWall, 1), &Run::momentum_error,
+              {1.3e-05, 1.3e-06, 3.5e-06, 7e-06}),
       extreme(5, "stack of 10 at 100 m/s², 5 s: moves", "mm", "rest", 2,
-              with_gravity(100, kStack, 5), moved_mm, {0.2, 0.2, 0.2, 0.2}),
+              with_gravity(100, kSteelStack, 5), moved_mm, {0.2, 0.2, 0.2, 0.2}),
       extreme(5, "heap of 27 that falls at 100 m/s²: energy gained", "", none, 1e-3,
               with_gravity(100, heap(""), 4), &Run::energy_gained,
               {0.0001, 0.0001, 0.0001, 0.0001}),
@@ -142,12 +143,14 @@ Truths surface_extremes() {
               with_ground(elastic, 10, elastic_ground), &Run::energy_gained,
               {0.0001, 0.0001, 0.0001, 0.0001}),
       extreme(7, "stack of 10 of e = 1, 5 s: moves", "mm", "rest", 2,
-              with_ground("[[material]]\nname = \"steel\"\nrestitution = 1\n" + std::string(kStack),
-                          5, elastic_ground),
+              with_ground(
+                  "[[material]]\nname = \"steel\"\nrestitution = 1\n" + std::string(kSteelStack), 5,
+                  elastic_ground),
               moved_mm, {0.2, 0.2, 0.2, 0.2}),
       extreme(7, "ball through a wall of e = 1: energy gained", "", none, 1e-3,
-              with_ground("[[material]]\nname = \"brick\"\nrestitution = 1\n" + std::string(kWall),
-                          3, elastic_ground),
+              with_ground(
+                  "[[material]]\nname = \"brick\"\nrestitution = 1\n" + std::string(kFallingWall),
+                  3, elastic_ground),
               &Run::energy_gained, {0.0001, 0.0001, 0.0001, 0.0001}),
   };
 }

@@ -34,7 +34,7 @@ namespace {
 using bench::Pile;
 using bench::touching_cubes;
 
-constexpr double kDt_s = 1.0 / 60;
+constexpr double kSweepDt_s = 1.0 / 60;
 constexpr double kRestDt_s = 1.0 / 480;  // short enough for columns of 46 cubes to stand
 constexpr int kMoreSweeps = 10, kTries = 7, kSteps = 6, kStepSubsteps = 4;
 
@@ -64,11 +64,11 @@ struct Timed {
     options.accelerated = false;
     physics = make_rigid_physics(options);
     physics->replace({}, set.bodies);
-    physics->collide(kDt_s);
+    physics->collide(kSweepDt_s);
   }
   void solve() {
     const double start = now_ms();
-    report = physics->solve(kDt_s, 1);
+    report = physics->solve(kSweepDt_s, 1);
     best_ms = std::min(best_ms, now_ms() - start);
   }
 };
