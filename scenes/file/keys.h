@@ -117,7 +117,7 @@ template <class Field, class... T>
 constexpr Key::Kind kind_of(TypeList<T...>) {
   int kind = 0;
   static_assert((std::is_same_v<Field, T> || ...) || std::is_enum_v<Field>);
-  ((std::is_same_v<Field, T> || (++kind, false)) || ...);
+  static_cast<void>(((std::is_same_v<Field, T> || (++kind, false)) || ...));
   return static_cast<Key::Kind>(kind);  // kChoice if Field is none of them
 }
 

@@ -59,7 +59,8 @@ class Dust {
   /// The air and the swirl, which exist only while there is dust.
   struct Flow {
     /// Without an argument: a small one, to be read from an archive.
-    explicit Flow(const Vec3i& cells = Vec3i::Constant(8)) : air(cells), swirl(Lattice{cells}) {}
+    Flow() : Flow(Vec3i::Constant(8)) {}
+    explicit Flow(const Vec3i& cells) : air(cells), swirl(Lattice{cells}) {}
     static auto fields(auto& self) { return std::tie(self.air, self.swirl); }
     Air air;
     Swirl swirl;

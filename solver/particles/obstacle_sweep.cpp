@@ -29,7 +29,7 @@ struct Clip {
     const WideInt enters = starts_out & ~ends_out & (time > enter);
     enter = enters ? time : enter;
     enter_face = enters ? face - WideInt{} : enter_face;
-    leave = ~starts_out & (end_m > 0) & (time < leave) ? time : leave;
+    leave = (~starts_out & (end_m > 0) & (time < leave)) ? time : leave;
     misses |= enter > leave;
   }
 };
