@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing packages on Debian, builds, and renders a house that is shot to rubble. Writes
-# out/demo.mp4 and out/demo.png, and prints a table of frame timings. Can be run again at any time.
+# out/demo.png and out/demo.mp4, and prints a table of frame timings. Can be run again at any time.
 set -euo pipefail
 cd "$(dirname "$0")"
 source cmake/setup.sh
@@ -10,14 +10,14 @@ set_up
 say "Building build/sunder"
 cmake --build --preset release --target sunder
 
-say "Frame timing of house, without pictures"
+say "Rendering one frame of house to out/demo.png"
 mkdir -p out
-build/sunder simulate house
-
-say "Rendering house to out/demo.mp4"
-build/sunder render house -o out/demo.mp4
-
-say "Rendering one frame of it to out/demo.png"
 build/sunder render house -o out/demo.png --frames 210:210
 
-say "Done: out/demo.mp4, out/demo.png"
+say "Frame timing of it, without pictures"
+build/sunder simulate house
+
+say "Rendering all of it to out/demo.mp4"
+build/sunder render house -o out/demo.mp4
+
+say "Done: out/demo.png, out/demo.mp4"

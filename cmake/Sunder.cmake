@@ -16,19 +16,17 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYP
 endif()
 find_program(SUNDER_CCACHE ccache)
 if(SUNDER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(settings)
+  set(settings CCACHE_SLOPPINESS=locale)
   if(SUNDER_QUICK_BUILD)
-    list(APPEND settings CCACHE_SLOPPINESS=pch_defines,time_macros)
+    string(APPEND settings ,pch_defines,time_macros)
   endif()
-  # Paths within the build folder count relative to it, so that one build compiles nothing that
-  # another of the same sources and options has compiled.
+  # Paths within the build folder count relative to it, and the language not at all (Python sets it
+  # for the builds that it starts), so that one build compiles nothing that another of the same
+  # sources and options has compiled.
   if(NOT DEFINED ENV{CCACHE_BASEDIR})
     list(APPEND settings CCACHE_BASEDIR=${PROJECT_BINARY_DIR})
   endif()
-  if(settings)
-    list(PREPEND settings ${CMAKE_COMMAND} -E env)
-  endif()
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${settings} ${SUNDER_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env ${settings} ${SUNDER_CCACHE})
 endif()
 
 # An older processor stops x86-64-v3 code with "illegal instruction".
