@@ -20,8 +20,8 @@
 namespace sunder {
 namespace {
 
-/// Factor on time limits for sanitizers and checked libraries.
-#ifdef NDEBUG
+/// Factor on time limits for sanitizers, checked libraries and processors that may be emulated.
+#if defined(NDEBUG) && !defined(__aarch64__)
 constexpr double kTimeFactor = 1;
 #else
 constexpr double kTimeFactor = 20;

@@ -41,7 +41,7 @@ done
 # start themselves again.
 tests=(engine_test geometry_test scene_export_test mesh_test fracture_unit fracture_property
   fracture_visual solver_unit solver_property scenes_test)
-left_out='*hold_over_ten_thousand*:*AnySoupEndsInTime*:*DeathTest*'
+left_out='*hold_over_ten_thousand*:*AnySoupEndsInTime*:*TenThousandLinks*:*DeathTest*'
 qemu=(qemu-aarch64-static -L /usr/aarch64-linux-gnu)
 
 say "Compiling for arm64"
