@@ -219,7 +219,7 @@ TEST(PlasticJoint, ManyThrownChainsKeepTheirMomentaAndGainNoEnergy) {
   std::printf("200 chains: motion rises by %.1e, with work by %.1e of E0 at most; p %.1e, L %.1e\n",
               worst.motion, worst.energy, worst.momentum, worst.spin);
   EXPECT_LT(worst.motion, 3e-3) << "the error of tumbling in any joint";
-  EXPECT_LT(worst.energy, 0.05) << "the work of a substep is that of its last speed";
+  EXPECT_LT(worst.energy, 0.1) << "the work of a substep is that of its last speed";
   EXPECT_LT(worst.momentum, 1e-5);
   EXPECT_LT(worst.spin, 1e-4);
 }
