@@ -201,12 +201,16 @@ TEST(PlasticJoint, ManyThrownChainsKeepTheirMomentaAndGainNoEnergy) {
     Frame frame;
     SectionStrength bears = strength(std::pow(10, between(1, 4)));
     bears.shear_N *= between(0.02, 1), bears.axial_N *= between(0.02, 1);
-    bears.moment_Nm = bears.moment_Nm.cwiseProduct(Vec3{between(0.2, 1), between(0.2, 1), 1});
+    const double share_y = between(0.2, 1), share_x = between(0.2, 1);
+    bears.moment_Nm = bears.moment_Nm.cwiseProduct(Vec3(share_x, share_y, 1));
     bears.axes_R = Quat(Eigen::AngleAxisd(between(0, 1), Vec3::UnitY())).toRotationMatrix();
     add_free_chain(frame, 2 + run % 9, between(0.3, 1), bears);
     for (std::size_t i = 0; i < frame.world.size(); ++i) {
       BodyState state = frame.world.state(frame.world.id(i));
-      const auto any = [&] { return Vec3{between(-8, 8), between(-8, 8), between(-8, 8)}; };
+      const auto any = [&] {
+        const double z = between(-8, 8), y = between(-8, 8), x = between(-8, 8);
+        return Vec3(x, y, z);
+      };
       state.velocity_W = Vec3(5, 0, 0) + any(), state.angular_velocity_W = any();
       frame.world.physics().set_state(frame.world.id(i), state);
     }
@@ -218,8 +222,8 @@ TEST(PlasticJoint, ManyThrownChainsKeepTheirMomentaAndGainNoEnergy) {
   }
   std::printf("200 chains: motion rises by %.1e, with work by %.1e of E0 at most; p %.1e, L %.1e\n",
               worst.motion, worst.energy, worst.momentum, worst.spin);
-  EXPECT_LT(worst.motion, 3e-3) << "the error of tumbling in any joint";
-  EXPECT_LT(worst.energy, 0.1) << "the work of a substep is that of its last speed";
+  EXPECT_LT(worst.motion, 2e-3) << "the error of tumbling in any joint";
+  EXPECT_LT(worst.energy, 0.01);
   EXPECT_LT(worst.momentum, 1e-5);
   EXPECT_LT(worst.spin, 1e-4);
 }
