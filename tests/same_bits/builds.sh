@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Compiles the program for several instruction sets of x86-64 and by several compilers, and fails if
-# scenes have other states than by the program in build/. Takes a quarter of an hour a build.
+# scenes have other states than by the program in build/. Takes five minutes a build.
 #
 # Usage: tests/same_bits/builds.sh [BUILD...]     (sse2 avx512 clang o1 by default)
 set -euo pipefail

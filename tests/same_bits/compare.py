@@ -14,15 +14,20 @@ SCENES = "stack,brick_wall,glass,column_row,vase"
 PRESETS = "draft,realtime,accurate"
 
 
-def state_hash(program, scene, preset, frames):
-    """Returns the hash of the states of a run, or the first line of what went wrong."""
-    command = [*shlex.split(program), "simulate", scene, "--preset", preset, "--quiet", "--json", "-"]
+def state_hash(program, scene, preset, frames, *options):
+    """Returns the hash of the states of a run, or the last line of what went wrong."""
+    command = [*shlex.split(program), "simulate", scene, "--preset", preset, "--quiet", "--json", "-",
+               *options]
     if frames:
         command += ["--frames", str(frames)]
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode != 0:
         return f"exit code {run.returncode}: {run.stderr.strip().splitlines()[-1:]}"
     return json.loads(run.stdout)["state_hash"]
+
+
+def are_same(hashes):
+    return len(set(hashes)) == 1 and not hashes[0].startswith("exit")
 
 
 def main():
@@ -39,7 +44,7 @@ def main():
     differ = 0
     for scene, preset in runs:
         hashes = [state_hash(program, scene, preset, args.frames) for program in args.programs]
-        same = len(set(hashes)) == 1 and not hashes[0].startswith("exit")
+        same = are_same(hashes)
         differ += not same
         print(row.format(scene, preset, hashes[0] if same else " ".join(hashes),
                          "same" if same else "DIFFERENT"), flush=True)

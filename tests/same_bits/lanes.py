@@ -1,27 +1,16 @@
 #!/usr/bin/env python3
 """Runs every scene on several numbers of threads and lanes, and fails if their states differ.
 
-Usage: same_bits.py [--sunder build/sunder] [--frames 600] [--preset draft] [SCENE...]
+Usage: lanes.py [--sunder build/sunder] [--frames 600] [--preset draft] [SCENE...]
 The tests compare the first seconds of each scene; this script takes a quarter of an hour.
 """
 import argparse
-import json
 import subprocess
 import sys
 
+from compare import are_same, state_hash
+
 RUNS = [(1, 16), (2, 8), (4, 4), (7, 1)]  # (threads, lanes)
-
-
-def sunder(program, *arguments):
-    command = [program, *arguments, "--json", "-"]
-    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-
-
-def state_hash(args, scene, threads, lanes):
-    figures = sunder(args.sunder, "simulate", scene, "--quiet", "--preset", args.preset,
-                     "--frames", str(args.frames), "--threads", str(threads),
-                     "--set", f"solver.lanes={lanes}", "--set", f"scene.duration_s={args.frames / 60}")
-    return figures["state_hash"]
 
 
 def main():
@@ -31,11 +20,15 @@ def main():
     parser.add_argument("--preset", default="draft", help="draft has one step per frame")
     parser.add_argument("scenes", nargs="*")
     args = parser.parse_args()
-    scenes = args.scenes or [s["name"] for s in sunder(args.sunder, "list")["scenes"]]
+    scenes = args.scenes or subprocess.run([args.sunder, "list", "--quiet"], check=True, text=True,
+                                           capture_output=True).stdout.split()
     differ = 0
     for scene in scenes:
-        hashes = [state_hash(args, scene, *run) for run in RUNS]
-        same = len(set(hashes)) == 1
+        hashes = [state_hash(args.sunder, scene, args.preset, args.frames, "--threads", str(threads),
+                             "--set", f"solver.lanes={lanes}",
+                             "--set", f"scene.duration_s={args.frames / 60}")
+                  for threads, lanes in RUNS]
+        same = are_same(hashes)
         differ += not same
         print(f"{scene:16} {' '.join(hashes) if not same else hashes[0]} "
               f"{'same' if same else 'DIFFERENT'}", flush=True)
