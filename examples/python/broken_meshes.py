@@ -18,6 +18,7 @@ import importlib
 import json
 import multiprocessing
 import multiprocessing.pool
+import multiprocessing.resource_tracker
 import os
 import shutil
 import signal
@@ -112,7 +113,6 @@ def outcome(task):
 
 def serve(pipe):
     """Makes the tasks that come through a pipe, until its other end is closed."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # for the process at the other end
     with contextlib.suppress(EOFError, OSError):
         while True:
             pipe.send(outcome(pipe.recv()))
@@ -122,6 +122,8 @@ def run_on_processes(tasks, count):
     """Makes tasks in processes of this machine; one that dies is replaced."""
     # A forked process would lack the threads of this one.
     context = multiprocessing.get_context("spawn")
+    # Its start unblocks the signals that feed() blocks.
+    multiprocessing.resource_tracker.ensure_running()
 
     def start():
         pipe, other_end = context.Pipe()
@@ -133,6 +135,8 @@ def run_on_processes(tasks, count):
     stopped = threading.Event()
 
     def feed(_):
+        # An interrupt is for the main thread: a process starts with the blocked signals of its thread.
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         pipe = None
         for task in waiting:
             pipe = pipe or start()
