@@ -62,7 +62,7 @@ THIRD_PARTY = [
     (r"(bullet/.*|bt[A-Z]\w*\.h|ode/.*)", ("bench/",)),
     (r"(gtest|gmock|rapidcheck)(/.*|\.h)", ("tests/",)),
 ]
-SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|malloc|sched|signal|spawn|"
+SYSTEM = re.compile(r"[a-z_0-9]+|(sys|linux)/\w+\.h|(dlfcn|fcntl|link|malloc|sched|signal|spawn|"
                     r"unistd|poll|errno|(imm|x86|arm_neo)intrin|cpuid)\.h")
 # Headers of C, for sources in C and for the header that is for both languages.
 C_SYSTEM = re.compile(r"(math|std(bool|def|int|io|lib)|string|time)\.h")

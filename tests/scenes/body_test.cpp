@@ -1,4 +1,6 @@
 // Tests of bodies from meshes, their cache between runs, and the fracture patterns of materials.
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -136,6 +138,40 @@ TEST_F(Bodies, AreDecomposedOnceAndCachedBitForBit) {
   EXPECT_EQ(cached_files().size(), 1u);
   load("[[body]]\nmesh = \"box.obj\"\nnodes = 6\n");
   EXPECT_EQ(cached_files().size(), 2u) << "other options, another entry";
+}
+
+TEST_F(Bodies, ACacheOfOtherBitsIsNotRead) {
+  const RawMesh mesh = cache_probe();
+  const fracture::VacdOptions options;
+  const std::uint64_t digest = decomposition_digest(mesh);
+  EXPECT_EQ(cache_key(mesh, options, "auto", digest), cache_key(mesh, options, "auto"));
+  MeshSolid stored;
+  stored.vacd.emplace();
+  store_cached(cache_key(mesh, options, "auto"), stored);
+  ASSERT_TRUE(load_cached(cache_key(mesh, options, "auto", digest)));
+  for (const std::size_t vertex : {std::size_t{0}, mesh.vertices.size() - 1}) {
+    RawMesh other = mesh;
+    double& x = other.vertices[vertex].x();
+    x = std::nextafter(x, 2.0);  // the last bit of one coordinate
+    const std::uint64_t other_digest = decomposition_digest(other);
+    EXPECT_NE(other_digest, digest) << vertex;
+    EXPECT_FALSE(load_cached(cache_key(mesh, options, "auto", other_digest))) << vertex;
+  }
+}
+
+TEST_F(Bodies, TheEntriesUsedLongestAgoLeaveTheCache) {
+  MeshSolid solid;
+  solid.vacd.emplace();
+  for (const std::uint64_t key : {1, 2, 3}) store_cached(key, solid);
+  const auto hour_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  for (const fs::path& file : cached_files()) fs::last_write_time(file, hour_ago);
+  const std::uintmax_t size = fs::file_size(cached_files()[0]);
+  EXPECT_TRUE(load_cached(2));  // used now
+  trim_cache(2 * size);
+  EXPECT_EQ(cached_files().size(), 2u);
+  trim_cache(size);
+  EXPECT_EQ(cached_files().size(), 1u);
+  EXPECT_TRUE(load_cached(2));
 }
 
 TEST_F(Bodies, ADamagedCacheEntryIsReplaced) {

@@ -1,6 +1,8 @@
 // Tests of the commands on meshes: `sunder fracture`, `sunder vacd` and `sunder hull`.
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -216,6 +218,34 @@ TEST(Fracture, WritesThePiecesOfAFilesMesh) {
     EXPECT_EQ(outcome.exit_code, 0) << out << "\n" << outcome.err;
   }
   EXPECT_GT(read_mesh(folder / "x.glb").polygons.size(), 8u);
+}
+
+TEST(MeshCache, OfAnotherBuildIsNotRead) {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  std::ofstream(folder / "t.obj") << open_tetrahedron();
+  std::ofstream(folder / "t.toml") << "[scene]\ndescription = \"x\"\n[[body]]\nmesh = \"t.obj\"\n";
+  std::ifstream file(SUNDER_PROGRAM, std::ios::binary);
+  std::string program(std::istreambuf_iterator<char>(file), {});
+  const std::string note("\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0", 16);  // of the build id
+  const std::size_t id = program.find(note);
+  ASSERT_NE(id, std::string::npos) << "the program is linked without a build id";
+  program[id + note.size()] ^= 1;
+  const std::string other = folder / "sunder";
+  std::ofstream(other, std::ios::binary) << program;
+  fs::permissions(other, fs::perms::owner_all);
+  const auto cached_files = [&] {
+    return std::distance(fs::directory_iterator(folder / "cache"), fs::directory_iterator());
+  };
+  const std::string in_cache = "SUNDER_CACHE='" + folder / "cache" + "' ";
+  const std::string check = "check " + folder / "t.toml";
+  for (const int run : {0, 1}) {
+    ASSERT_EQ(sunder(check, in_cache).exit_code, 0);
+    EXPECT_EQ(cached_files(), 1) << run;
+  }
+  // The shell runs the other program, and this one for its version.
+  ASSERT_EQ(sunder("--version", in_cache + "'" + other + "' " + check + " && ").exit_code, 0);
+  EXPECT_EQ(cached_files(), 2);
 }
 
 TEST(MeshCommands, AScaleMakesMetresOfTheUnitsOfAFile) {
