@@ -94,8 +94,8 @@ Scene Loader::load(const LoadOptions& options) {
     if (!scene) throw InputError(document_.where + ": missing table [scene]");
     read(s.scene, *scene, {}, scene_);
   });
-  const Preset& preset =
-      find_named(presets(), options.preset, "--preset " + options.preset + ": unknown preset");
+  const Preset& preset = presets()[find_named(presets(), options.preset,
+                                              "--preset " + options.preset + ": unknown preset")];
   scene_.accuracy = preset.accuracy;
   scene_.solver.sweeps = preset.sweeps;
   scene_.limits.full_detail = preset.full_detail;

@@ -164,10 +164,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 MaterialIndex find_material(std::string_view name, const std::string& where,
                             std::span<const Material> materials) {
-  const Material& found =
-      find_named(materials, name, where + ": unknown material '" + std::string(name) + "'",
-                 "; materials: ", ", ");
-  return MaterialIndex(static_cast<std::size_t>(&found - materials.data()));
+  return MaterialIndex(find_named(materials, name,
+                                  where + ": unknown material '" + std::string(name) + "'",
+                                  "; materials: ", ", "));
 }
 
 std::string degrees_name(const Key& key) {

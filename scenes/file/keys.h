@@ -224,13 +224,15 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 /// Returns the words as "a, b, c".
 std::string join(std::span<const std::string_view> words, std::string_view separator = ", ");
 
-/// Returns the element of this name, or throws InputError: `complaint` and a list of all names.
+/// Returns the index of the element of this name, or throws InputError: `complaint` and a list of
+/// all names.
 template <class T>
-const T& find_named(std::span<const T> all, std::string_view name, const std::string& complaint,
-                    const std::string& list = "; allowed: ", std::string_view separator = " | ") {
+std::size_t find_named(std::span<const T> all, std::string_view name, const std::string& complaint,
+                       const std::string& list = "; allowed: ",
+                       std::string_view separator = " | ") {
   std::vector<std::string_view> names;
   for (const T& one : all) {
-    if (one.name == name) return one;
+    if (one.name == name) return names.size();
     names.push_back(one.name);
   }
   throw InputError(complaint + did_you_mean(name, names) + list + join(names, separator));

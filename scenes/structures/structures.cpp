@@ -219,9 +219,9 @@ std::vector<Piece> read_structure(const Value& table, std::string_view name,
                                   const std::string& structure,
                                   std::initializer_list<std::span<const Key>> more,
                                   const BuildContext& context) {
-  const StructureType& type =
-      find_named(structures(), structure,
-                 find(table, "structure")->where + ": unknown structure '" + structure + "'");
+  const StructureType& type = structures()[find_named(
+      structures(), structure,
+      find(table, "structure")->where + ": unknown structure '" + structure + "'")];
   const std::string full_name = std::string(name) + " " + structure;
   std::vector<Key> known;
   for (const std::span<const Key> keys : more) known.insert(known.end(), keys.begin(), keys.end());

@@ -89,7 +89,7 @@ class BlocksOf final : public ContactBlocks {
     for (std::uint32_t i = begin; i < end; ++i) {
       float of_lane[kWidth];
       solver::find_change_energy(blocks_[i], search_[i], of_lane);
-      std::copy_n(of_lane, blocks_[i].count, energy + blocks_[i].first);
+      std::copy_n(of_lane, std::min(blocks_[i].count, kWidth), energy + blocks_[i].first);
     }
   }
   void step_along_direction(std::uint32_t begin, std::uint32_t end, const ContactStep& step,
