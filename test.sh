@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds, and runs the tests. With --all also runs the tests that take
-# more than ten seconds, the extremes, the truths at every preset and the soak test, and then the
-# unit tests under the address and undefined-behaviour sanitizers. Can be run again at any time.
+# Installs missing packages, builds, and runs the tests. With --all also installs what only some
+# tests need (Chromium, other engines and the like: 1.2 GB), runs these and the tests that take more
+# than ten seconds, the extremes, the truths at every preset and the soak test, and then the unit
+# tests under the address and undefined-behaviour sanitizers. Can be run again at any time.
 set -euo pipefail
 all=false
 case "${1:-}" in
@@ -13,17 +14,20 @@ esac
 cd "$(dirname "$0")"
 source cmake/setup.sh
 
-# Before the build is configured, which leaves the Python module and the reference out without them.
+# Before the build is configured, which leaves out what needs a missing package.
 install_optional pybind11-dev python3-dev python3-numpy python3-venv
-install_optional doxygen
+if $all; then
+  # The reference, the format, other engines, the page, data sets, other processors, and packages.
+  install_optional doxygen
+  install_optional clang-format-14
+  install_optional libbullet-dev libode-dev
+  install_optional libjs-three chromium
+  install_optional parallel
+  install_optional python3-distributed
+  install_optional qemu-user-static
+  install_optional mmdebstrap lintian
+fi
 set_up
-install_optional clang-format-14
-install_optional libbullet-dev libode-dev
-install_optional libjs-three chromium
-install_optional parallel
-install_optional python3-distributed
-install_optional qemu-user-static
-if $all; then install_optional mmdebstrap lintian; fi
 
 say "Building everything"
 cmake --build --preset release
