@@ -56,8 +56,10 @@ class FrameDrawer {
 
 class VideoSink final : public FrameSink {
  public:
-  VideoSink(const std::filesystem::path& path, Renderer& renderer, int frames_per_s)
-      : drawer_(renderer), encoder_(path, renderer.width(), renderer.height(), frames_per_s) {}
+  VideoSink(const std::filesystem::path& path, Renderer& renderer, int frames_per_s,
+            std::function<bool()> is_stopped)
+      : drawer_(renderer),
+        encoder_(path, renderer.width(), renderer.height(), frames_per_s, std::move(is_stopped)) {}
   void take(const FramePtr& frame) override {
     drawer_.take(frame);
     encoder_.add(drawer_.picture());
@@ -135,7 +137,8 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
 }
 
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
-                                             bool resume, int frames_per_s) {
+                                             bool resume, int frames_per_s,
+                                             std::function<bool()> is_stopped) {
   const std::string extension = path.extension().string();
   const bool is_video = has_ending(extension, ".mp4") || has_ending(extension, ".webm");
   if (is_video || has_ending(extension, ".png")) {
@@ -147,7 +150,8 @@ std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, 
           ": a video cannot have transparency or layers; write images to a folder (DIR/)");
     }
     check_output_path(path);
-    if (is_video) return std::make_unique<VideoSink>(path, renderer, frames_per_s);
+    if (is_video)
+      return std::make_unique<VideoSink>(path, renderer, frames_per_s, std::move(is_stopped));
     return std::make_unique<LastImageSink>(path, renderer);
   }
   const std::filesystem::path folder = path.has_filename() ? path : path.parent_path();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,9 +40,10 @@ class Renderer;  // renderer.h
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path,
                                              const RenderOptions& options);
 /// Makes a sink that uses `renderer`, which must outlive it. With `resume`, images that exist in
-/// the folder are kept and not drawn again.
+/// the folder are kept and not drawn again. For `is_stopped` see Encoder (image/encoder.h).
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, Renderer& renderer,
-                                             bool resume = false, int frames_per_s = 60);
+                                             bool resume = false, int frames_per_s = 60,
+                                             std::function<bool()> is_stopped = {});
 /// Makes the folder of a file to be written. Throws InputError if `path` is a folder itself,
 /// FileError if the folder cannot be made or written.
 void check_output_path(const std::filesystem::path& path);

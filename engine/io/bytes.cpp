@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <optional>
 
 #include <xxhash.h>
+
+#include "engine/io/unfinished_file.h"
 
 namespace sunder {
 
@@ -53,14 +56,6 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
   return place_of(path).string() + ".part-" + std::to_string(::getpid());
 }
 
-void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path) {
-  std::error_code error, ignored;
-  std::filesystem::rename(temporary, place_of(path), error);
-  if (!error) return;
-  std::filesystem::remove(temporary, ignored);
-  throw FileError(path.string() + ": cannot be written: " + error.message());
-}
-
 std::ofstream create_file(const std::filesystem::path& path) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
@@ -71,8 +66,9 @@ std::ofstream create_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  const bool direct = is_device(path);
-  const std::filesystem::path file = direct ? path : temporary_name(path);
+  std::optional<UnfinishedFile> unfinished;
+  if (!is_device(path)) unfinished.emplace(path);
+  const std::filesystem::path& file = unfinished ? unfinished->path() : path;
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
   std::ofstream out(file, std::ios::binary);
@@ -81,11 +77,10 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
             static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) {
-    if (!direct) std::filesystem::remove(file, error);
     throw FileError(path.string() + ": cannot be written; " +
                     (opened ? "is the disk full?" : "check the folder and its permissions"));
   }
-  if (!direct) replace_file(file, path);
+  if (unfinished) unfinished->publish();
 }
 
 }  // namespace sunder

@@ -128,8 +128,6 @@ std::filesystem::path place_of(const std::filesystem::path& path);
 bool is_device(const std::filesystem::path& path);
 /// Returns the path of an incomplete file: in the same folder, with the process id in its name.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
-/// Renames a complete file to its path; on failure removes it and throws FileError.
-void replace_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
 /// Creates a file to be written in parts, and its folder; throws FileError on failure.
 std::ofstream create_file(const std::filesystem::path& path);
 /// Writes a file under a temporary name and renames it; writes to a device or pipe directly.

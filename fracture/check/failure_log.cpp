@@ -1,9 +1,11 @@
 #include "fracture/check/failure_log.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <utility>
+
+#include "engine/base/check.h"
+#include "engine/io/unfinished_file.h"
 
 namespace sunder::fracture {
 
@@ -47,15 +49,19 @@ void FailureLog::write_all() {
 
 void FailureLog::write(const BreakCase& example) {
   const std::string name = folder_ + "/break-" + std::to_string(example.command.event) + ".case";
-  const std::string unfinished = name + ".part";
+  UnfinishedFile unfinished(name);
   std::error_code no_folder;
   std::filesystem::create_directories(folder_, no_folder);
   {
-    std::ofstream file(unfinished);
+    std::ofstream file(unfinished.path());
     write_case(file, example);
     if (!file.flush()) return;  // A full disk must not stop the simulation.
   }
-  if (std::rename(unfinished.c_str(), name.c_str()) != 0) return;
+  try {
+    unfinished.publish();
+  } catch (const FileError&) {
+    return;
+  }
   const std::lock_guard lock(mutex_);
   ++files_;
 }

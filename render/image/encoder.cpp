@@ -3,6 +3,7 @@
 #include "render/image/encoder.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -14,7 +15,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine/base/check.h"
@@ -73,6 +77,14 @@ int spawn(std::vector<std::string> words, int input, int log, int& pid) {
   return error;
 }
 
+/// Returns the processor time that a child has used; 0 if it has ended.
+std::int64_t processor_ns(int pid) {
+  clockid_t clock = 0;
+  timespec used = {};
+  if (::clock_getcpuclockid(pid, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
+  return used.tv_sec * std::int64_t{1'000'000'000} + used.tv_nsec;
+}
+
 void close_once(int& file) {
   if (file >= 0) ::close(file);
   file = -1;
@@ -80,8 +92,9 @@ void close_once(int& file) {
 
 }  // namespace
 
-Encoder::Encoder(const std::filesystem::path& path, int width, int height, int frames_per_s)
-    : path_(path), temporary_(temporary_name(path)), width_(width), height_(height) {
+Encoder::Encoder(const std::filesystem::path& path, int width, int height, int frames_per_s,
+                 std::function<bool()> is_stopped)
+    : path_(path), file_(path), is_stopped_(std::move(is_stopped)), width_(width), height_(height) {
   if (width % 2 != 0 || height % 2 != 0) {
     const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
     throw InputError(path.string() + ": a video needs an even width and height, not " +
@@ -101,11 +114,14 @@ Encoder::Encoder(const std::filesystem::path& path, int width, int height, int f
     throw InputError(path.string() + ": no socket to ffmpeg could be created: " + reason);
   }
   input_ = ends[0];
-  const int error =
-      spawn(arguments(temporary_, has_ending(path.string(), ".webm"), width, height, frames_per_s),
-            ends[1], log_, pid_);
+  const int error = spawn(
+      arguments(file_.path(), has_ending(path.string(), ".webm"), width, height, frames_per_s),
+      ends[1], log_, pid_);
   ::close(ends[1]);
-  if (error == 0) return;
+  if (error == 0) {
+    file_.set_writer(pid_);
+    return;
+  }
   close_once(input_);
   close_once(log_);
   throw InputError(path.string() + ": the program ffmpeg cannot be started (" +
@@ -116,30 +132,56 @@ Encoder::Encoder(const std::filesystem::path& path, int width, int height, int f
 
 Encoder::~Encoder() {
   if (pid_ > 0) {
-    ::kill(pid_, SIGKILL);
+    ::kill(-pid_, SIGKILL);
     close_and_wait();
-    std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
   }
   close_once(log_);
 }
 
 void Encoder::add(const Image& image) {
   SUNDER_CHECK(image.width == width_ && image.height == height_ && pid_ > 0);
+  note_work();
   std::size_t sent = 0;
   while (sent < image.rgb.size()) {
-    const ssize_t n =
-        ::send(input_, image.rgb.data() + sent, image.rgb.size() - sent, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail();
-    sent += static_cast<std::size_t>(n);
+    const ssize_t n = ::send(input_, image.rgb.data() + sent, image.rgb.size() - sent,
+                             MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n >= 0) {
+      sent += static_cast<std::size_t>(n);
+      note_work();
+    } else if (errno == EAGAIN) {
+      wait_for_room();
+    } else if (errno != EINTR) {
+      fail();
+    }
   }
   if (has_error_output()) fail();
 }
 
 void Encoder::finish() {
   if (!close_and_wait() || has_error_output()) fail();
-  replace_file(temporary_, path_);
+  file_.publish();
+}
+
+/// Waits until ffmpeg can take more input, or for a short time.
+void Encoder::wait_for_room() {
+  constexpr int kWait_ms = 50;
+  pollfd room = {input_, POLLOUT, 0};
+  if (::poll(&room, 1, kWait_ms) == 0) kill_if_hanging();
+}
+
+void Encoder::note_work() { worked_ = std::chrono::steady_clock::now(); }
+
+void Encoder::kill_if_hanging() {
+  constexpr std::chrono::milliseconds kMostIdle(800);
+  constexpr std::int64_t kWork_ns = 10'000'000;  // a shell that loops over `sleep 1` uses less
+  const std::int64_t used_ns = processor_ns(pid_);
+  if (!is_stopped_ || !is_stopped_() || used_ns - used_ns_ > kWork_ns) {
+    used_ns_ = used_ns;
+    return note_work();
+  }
+  if (killed_ || std::chrono::steady_clock::now() - worked_ < kMostIdle) return;
+  killed_ = true;
+  ::kill(-pid_, SIGKILL);
 }
 
 /// Returns true if ffmpeg has written any output: on a full disk it reports that but ends with 0.
@@ -149,22 +191,28 @@ bool Encoder::has_error_output() const {
 }
 
 bool Encoder::close_and_wait() {
+  constexpr std::chrono::milliseconds kWait(5);
   close_once(input_);
-  int status = 0;
-  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  note_work();
+  int status = 0, ended = 0;
+  while ((ended = ::waitpid(pid_, &status, WNOHANG)) == 0) {
+    kill_if_hanging();
+    std::this_thread::sleep_for(kWait);
   }
+  file_.set_writer(0);
   pid_ = -1;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 void Encoder::fail() {
   if (pid_ > 0) close_and_wait();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  if (killed_)
+    throw FileError(path_.string() +
+                    ": is not written: the program ffmpeg hangs, and was killed after the signal");
   std::array<char, 2000> words = {};
   const ssize_t size = ::pread(log_, words.data(), words.size() - 1, 0);
   const std::string reason = size > 0 ? words.data() : "no error message";
-  if (reason.starts_with(temporary_.string() + ":"))
+  if (reason.starts_with(file_.path().string() + ":"))
     throw FileError(path_.string() + ": cannot be written; check the folder and its permissions");
   throw FileError(path_.string() + ": the program ffmpeg (package ffmpeg) failed: " + reason);
 }

@@ -20,8 +20,9 @@ struct ProcessResult {
 };
 
 /// Runs `work`, which returns an exit code, in a fork of this process and waits for it. This
-/// process must have started no threads. The child is killed if this process ends or has caught a
-/// stop signal (run.h). Throws FileError if no process can be started.
+/// process must have started no threads. The child gets SIGTERM if this process ends or has caught
+/// a stop signal (run.h), and is killed a second after the signal. Throws FileError if no process
+/// can be started.
 ProcessResult run_in_child(const std::function<int()>& work);
 /// Runs all of `works` at the same time, each in a fork of this process. Otherwise as above.
 std::vector<ProcessResult> run_in_child(std::span<const std::function<int()>> works);

@@ -6,6 +6,7 @@
 
 #include "engine/base/check.h"
 #include "scenes/app/command_line.h"
+#include "scenes/app/run.h"
 #include "scenes/file/error_list.h"
 
 int main(int argc, char** argv) {
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
   // takes a third of the time of its stress computation.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  sunder::app::clean_up_on_signals();
   try {
     const int code = sunder::app::parse_command_line(argc, argv)();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
@@ -26,6 +28,7 @@ int main(int argc, char** argv) {
     return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "failed: %s\n", error.what());
-    return 1;
+    const int stopped = sunder::app::stop_signal();
+    return stopped != 0 ? 128 + stopped : 1;
   }
 }

@@ -224,7 +224,8 @@ std::unique_ptr<FrameSink> make_sink(const RenderOptions& options, render::Rende
                                      std::uint64_t first, std::uint64_t last) {
   if (options.sheet == 0) {
     return render::make_picture_sink(options.output, renderer, options.resume,
-                                     options.render.frames_per_s);
+                                     options.render.frames_per_s,
+                                     [] { return stop_signal() != 0; });
   }
   if (options.resume) throw InputError("--resume: a sheet cannot be resumed; remove the option");
   return render::make_sheet_sink(options.output, renderer, {first, last, options.sheet},

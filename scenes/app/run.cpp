@@ -11,6 +11,7 @@
 #include <ctime>
 
 #include "engine/base/check.h"
+#include "engine/io/unfinished_file.h"
 
 namespace sunder::app {
 namespace {
@@ -29,6 +30,12 @@ std::int64_t monotonic_ns() {  // std::chrono isn't among what a signal handler 
   return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
 }
 
+void clean_up_and_end(int signal) {
+  remove_unfinished_files();
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);  // delivered when this handler returns
+}
+
 void catch_stop_signal(int signal) {
   static std::atomic<std::int64_t> first_ns = 0;
   static_assert(decltype(first_ns)::is_always_lock_free);
@@ -36,10 +43,17 @@ void catch_stop_signal(int signal) {
   if (caught == 0) {
     first_ns = now_ns;
   } else if (now_ns - first_ns > kSameRequestNs) {
-    ::signal(signal, SIG_DFL);
-    ::raise(signal);  // delivered when this handler returns
+    clean_up_and_end(signal);
   }
   caught = signal;
+}
+
+/// Sets the handler of a signal, unless the signal is ignored and `ignored_stays` is true.
+void handle(int signal, void (*handler)(int), bool ignored_stays) {
+  struct sigaction action = {}, before = {};
+  action.sa_handler = handler;
+  ::sigaction(signal, nullptr, &before);
+  if (before.sa_handler != SIG_IGN || !ignored_stays) ::sigaction(signal, &action, nullptr);
 }
 
 /// A source of another source's frames that ends when a stop signal is caught.
@@ -54,25 +68,21 @@ class StoppableSource final : public FrameSource {
 
 }  // namespace
 
+void clean_up_on_signals() {
+  for (const int signal : kStopSignals) handle(signal, clean_up_and_end, true);
+  handle(SIGPIPE, clean_up_and_end, true);
+}
+
 void catch_stop_signals() {
-  struct sigaction action = {};
-  action.sa_handler = catch_stop_signal;
-  for (const int signal : kStopSignals) {
-    struct sigaction before = {};  // keeps SIGHUP ignored, as nohup sets it
-    ::sigaction(signal, nullptr, &before);
-    if (signal != SIGHUP || before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
-  }
+  for (const int signal : kStopSignals)
+    handle(signal, catch_stop_signal, signal == SIGHUP);  // nohup ignores it
 }
 
 int stop_signal() { return caught; }
 
 void release_stop_signals() {
   caught = 0;
-  for (const int signal : kStopSignals) {
-    struct sigaction before = {};
-    ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) ::signal(signal, SIG_DFL);
-  }
+  clean_up_on_signals();
 }
 
 int pump_until_stopped(FrameSource& source, std::span<FrameSink* const> sinks) {

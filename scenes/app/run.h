@@ -47,12 +47,17 @@ class FramesFrom final : public FrameSink {
   std::uint64_t first_;
 };
 
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGPIPE remove all files that are not complete
+/// (engine/io/unfinished_file.h) before they end the program. Those that are ignored stay so.
+void clean_up_on_signals();
 /// Catches SIGINT, SIGTERM and SIGHUP from now on, for stop_signal(). Another one that comes more
-/// than half a second after the first ends the program at once. SIGHUP stays ignored if it is.
+/// than half a second after the first ends the program at once, and removes files that are not
+/// complete. SIGHUP stays ignored if it is.
 void catch_stop_signals();
 /// Returns the last signal that was caught; 0 if none was.
 int stop_signal();
-/// Restores the default action of the signals, and resets stop_signal() to 0.
+/// Has the signals end the program again, as after clean_up_on_signals(), and resets stop_signal()
+/// to 0.
 void release_stop_signals();
 
 /// Pumps frames as pump() does, but ends after the current frame when a stop signal is caught, and

@@ -3,31 +3,15 @@
 #include <filesystem>
 
 #include "engine/base/check.h"
-#include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "engine/io/file_ending.h"
+#include "engine/io/unfinished_file.h"
 #include "scenes/app/export.h"
 #include "scenes/app/input_kind.h"
 #include "scenes/report/view_page.h"
 
 namespace sunder::app {
 namespace {
-
-/// A file that is removed at the end.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Throws InputError for what can be told before the run.
 void check_options(const ViewOptions& options) {
@@ -64,7 +48,7 @@ int view(const ViewOptions& options) {
     const std::filesystem::path run = options.scene;
     return write_page(options, {run.stem().string(), run, options.three}, {});
   }
-  const TemporaryFile file(temporary_name(options.output) += ".glb");
+  const UnfinishedFile file(options.output, ".glb");  // is never published
   ExportOptions exported = options;
   exported.output = file.path().string();
   const WrittenRun run = write_run(exported, "view");

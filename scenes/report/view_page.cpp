@@ -5,10 +5,12 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "engine/base/check.h"
 #include "engine/io/bytes.h"
+#include "engine/io/unfinished_file.h"
 #include "scenes/report/page.h"
 #include "scenes/report/viewer_files.h"
 
@@ -91,9 +93,9 @@ std::uint64_t write_view_page(const std::filesystem::path& path, const ViewPage&
   const std::string three = read_three(page.three);
   const std::vector<std::byte> run = read_file(page.run);
   check_glb(run, page.run.string());
-  const bool direct = is_device(path);
-  const std::filesystem::path place = direct ? path : temporary_name(path);
-  std::ofstream out = create_file(place);
+  std::optional<UnfinishedFile> unfinished;
+  if (!is_device(path)) unfinished.emplace(path);
+  std::ofstream out = create_file(unfinished ? unfinished->path() : path);
   using namespace viewer_files;
   fill_in(page_html, out,
           {{"title", [&] { out << escaped(page.title); }},
@@ -106,12 +108,8 @@ std::uint64_t write_view_page(const std::filesystem::path& path, const ViewPage&
             }}});
   const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, out.tellp()));
   out.close();
-  if (!out) {
-    std::error_code ignored;
-    if (!direct) std::filesystem::remove(place, ignored);
-    throw FileError(path.string() + ": cannot be written; is the disk full?");
-  }
-  if (!direct) replace_file(place, path);
+  if (!out) throw FileError(path.string() + ": cannot be written; is the disk full?");
+  if (unfinished) unfinished->publish();
   return size;
 }
 

@@ -1,5 +1,12 @@
 // Tests of frame files, state hashes and statistics.
+#include <unistd.h>
+
+#include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +17,7 @@
 #include "engine/io/particle_codes.h"
 #include "engine/io/state_hash.h"
 #include "engine/io/statistics.h"
+#include "engine/io/unfinished_file.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
@@ -312,6 +320,56 @@ TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   EXPECT_EQ(json["per_frame"][0]["fractures"]["max_ms"], json["fractures"]["max_ms"]);
   EXPECT_NEAR(json["penetration_m"]["max"].get<double>(), 0.002, 1e-9);
   EXPECT_FALSE(nlohmann::json::parse(statistics.json("", false)).contains("state_hash"));
+}
+
+TEST(UnfinishedFile, IsRemovedUnlessItIsPublished) {
+  const TemporaryFile place;
+  fs::path name;
+  {
+    const UnfinishedFile file(place.path);
+    name = file.path();
+    std::ofstream(name) << "half";
+    EXPECT_NE(name, place.path);
+    EXPECT_EQ(name.parent_path(), place.path.parent_path());
+  }
+  EXPECT_FALSE(fs::exists(name));
+  UnfinishedFile file(place.path);
+  std::ofstream(file.path()) << "whole";
+  file.publish();
+  EXPECT_FALSE(fs::exists(file.path()));
+  EXPECT_EQ(fs::file_size(place.path), 5u);
+}
+
+TEST(UnfinishedFile, OfAProcessIsRemovedByItsSignalHandlerWithItsWriterKilled) {
+  const TemporaryFile place;
+  const UnfinishedFile of_parent(place.path, ".parent");
+  std::ofstream(of_parent.path()) << "half";
+  const auto end = [&] {
+    std::vector<std::unique_ptr<UnfinishedFile>> files;
+    for (int i = 0; i < 100; ++i) {  // more than can be known at a time
+      files.push_back(std::make_unique<UnfinishedFile>(place.path, "." + std::to_string(i)));
+      if (i % 2 == 1) files.erase(files.begin());
+    }
+    std::ofstream(files.front()->path()) << "half";
+    fs::create_directory(files[1]->path());
+    for (int i = 0; i < 300; ++i) std::ofstream(files[1]->path() / std::to_string(i)) << "half";
+    const pid_t writer = ::fork();
+    if (writer == 0) {
+      ::setpgid(0, 0);
+      for (;;) ::pause();
+    }
+    ::setpgid(writer, writer);
+    std::ofstream(files[2]->path()) << "half";
+    files[2]->set_writer(writer);
+    const bool existed = fs::exists(files[0]->path()) && fs::exists(files[1]->path() / "299");
+    remove_unfinished_files();
+    bool left = ::kill(writer, 0) == 0;
+    for (int i = 0; i < 3; ++i)
+      left = left || fs::exists(files[static_cast<std::size_t>(i)]->path());
+    ::_exit(existed && !left ? 7 : 1);
+  };
+  EXPECT_EXIT(end(), ::testing::ExitedWithCode(7), "");
+  EXPECT_TRUE(fs::exists(of_parent.path())) << "a fork removes its own files only";
 }
 
 }  // namespace

@@ -1,10 +1,16 @@
 // Tests of `sunder render`: cameras, rates and sheets of scenes, recordings and stored frames.
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -136,6 +142,76 @@ TEST_F(Film, ASceneMayDefineThePathOfItsCamera) {
   std::ofstream(moving, std::ios::app) << "[[view.key]]\ntime_s = 0\neye = [9, 2, 0]\n";
   EXPECT_EQ(drawn(moving + " --preset draft --frames 2"),
             drawn(scene() + " --preset draft --frames 2 --set view.eye=[9,2,0]"));
+}
+
+/// Programs in place of ffmpeg that open their output, and then neither read nor end.
+constexpr const char* kHangs[] = {"exec sleep 1000", "sleep 1000; :", "kill -STOP $$"};
+
+class Hanging : public Film {
+ protected:
+  /// Renders a video with a program in place of ffmpeg, and sends a signal. Returns the exit code;
+  /// 99 if the command has not ended ten seconds later.
+  int signalled(const std::string& hang, const std::string& options, const std::string& signal) {
+    const std::string program = folder_ / "bin/ffmpeg", group = folder_ / "group";
+    std::filesystem::create_directories(folder_ / "bin");
+    std::filesystem::remove(group);
+    std::ofstream(program) << "#!/bin/sh\nfor last; do :; done\n: >\"$last\"\necho $$ >" << group
+                           << "\n"
+                           << hang << "\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    std::ofstream(folder_ / "run.sh")
+        << "PATH=" << folder_ / "bin"
+        << ":$PATH\n\"" SUNDER_PROGRAM "\" render " << recording() << " --size 64x48 --quiet -o "
+        << folder_ / "out/v.mp4"
+        << " " << options << " >/dev/null 2>" << folder_ / "err"
+        << " & run=$!\n"
+           "i=0; while [ $i -lt 1200 ] && ! [ -s "
+        << group << " ]; do sleep 0.05; i=$((i+1)); done\nsleep 1\nkill -" << signal
+        << " $run\ni=0; while [ $i -lt 200 ] && kill -0 $run 2>/dev/null; do sleep 0.05; "
+           "i=$((i+1)); done\n"
+           "if kill -9 $run 2>/dev/null; then code=99; else wait $run; code=$?; fi\n"
+           "exit $code\n";
+    const int status = std::system(("sh " + folder_ / "run.sh").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  void expect_nothing_left() {
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "out"));
+    const int group = std::stoi(bytes_of(folder_ / "group"));
+    EXPECT_FALSE(has_processes(group));
+    ::kill(-group, SIGKILL);
+  }
+  /// Returns true if a process group has a process that has not ended.
+  static bool has_processes(int group) {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::ifstream file(entry.path() / "stat");
+      std::string stat;  // PID (NAME) STATE PARENT GROUP
+      std::getline(file, stat);
+      std::istringstream fields(stat.substr(std::min(stat.size(), stat.rfind(')') + 1)));
+      char state = 'Z';
+      int parent = 0, of = 0;
+      if (fields >> state >> parent >> of && of == group && state != 'Z') return true;
+    }
+    return false;
+  }
+};
+
+TEST_F(Hanging, FfmpegIsKilledAfterASignalAndNothingIsLeft) {
+  for (const char* hang : kHangs) {
+    EXPECT_EQ(signalled(hang, "", "TERM"), 143) << hang << ": while frames are sent";
+    EXPECT_NE(bytes_of(folder_ / "err").find("ffmpeg hangs"), std::string::npos)
+        << bytes_of(folder_ / "err");
+    expect_nothing_left();
+  }
+  EXPECT_EQ(signalled(kHangs[0], "--frames :2", "INT"), 130) << "after all frames";
+  expect_nothing_left();
+}
+
+TEST_F(Hanging, FfmpegIsKilledWhenTheProgramEndsAtOnce) {
+  for (const auto& [signal, code] :
+       {std::pair{"PIPE", 141}, {"TERM $run; sleep 0.6; kill -TERM", 143}}) {
+    EXPECT_EQ(signalled(kHangs[0], "", signal), code) << signal;
+    expect_nothing_left();
+  }
 }
 
 }  // namespace

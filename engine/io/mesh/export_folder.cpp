@@ -26,23 +26,17 @@ void check_replaceable(const fs::path& folder,
 
 ExportFolder::ExportFolder(const fs::path& place,
                            const std::function<bool(const std::string& name)>& is_own)
-    : place_(place.has_filename() ? place : place.parent_path()),
-      partial_(place_.string() + ".part" + std::to_string(::getpid())) {
+    : place_(place.has_filename() ? place : place.parent_path()), partial_(place_) {
   check_replaceable(place_, is_own);
   std::error_code ignored;
-  fs::remove_all(partial_, ignored);
-}
-
-ExportFolder::~ExportFolder() {
-  std::error_code ignored;
-  fs::remove_all(partial_, ignored);
+  fs::remove_all(partial_.path(), ignored);
 }
 
 void ExportFolder::publish() {
   const fs::path old = place_.string() + ".old" + std::to_string(::getpid());
   std::error_code error, no_old, ignored;
   fs::rename(place_, old, no_old);
-  fs::rename(partial_, place_, error);
+  fs::rename(partial_.path(), place_, error);
   if (error) {
     if (!no_old) fs::rename(old, place_, ignored);
     throw FileError(place_.string() + ": cannot be written; check the folder and its permissions");

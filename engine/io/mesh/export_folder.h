@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "engine/io/unfinished_file.h"
+
 namespace sunder {
 
 /// A folder under a temporary name, removed with this object unless it is published.
@@ -14,17 +16,15 @@ class ExportFolder {
   /// a folder that has other files than those whose names `is_own` accepts. Writes nothing.
   ExportFolder(const std::filesystem::path& place,
                const std::function<bool(const std::string& name)>& is_own);
-  ~ExportFolder();
-  ExportFolder(const ExportFolder&) = delete;
-  ExportFolder& operator=(const ExportFolder&) = delete;
 
   /// Returns the path of the incomplete folder, which writing a file in it creates.
-  const std::filesystem::path& path() const { return partial_; }
+  const std::filesystem::path& path() const { return partial_.path(); }
   /// Renames the folder to its place, and removes the folder that was there. Throws FileError.
   void publish();
 
  private:
-  std::filesystem::path place_, partial_;
+  std::filesystem::path place_;
+  UnfinishedFile partial_;
 };
 
 }  // namespace sunder

@@ -20,6 +20,7 @@
 #include "engine/io/scene_export/gltf_buffers.h"
 #include "engine/io/scene_export/run_materials.h"
 #include "engine/io/scene_export/side_data.h"
+#include "engine/io/unfinished_file.h"
 
 namespace sunder {
 namespace {
@@ -581,16 +582,10 @@ void GltfSceneWriter::Scene::write(const std::string& text) {
                     ": the run needs more than the 4 GB of a GLB file; export fewer frames, or "
                     "with a larger --tolerance");
   }
-  const bool direct = is_device(path_);
-  const std::filesystem::path place = direct ? path_ : temporary_name(path_);
-  try {
-    write_parts(place, text, binary);
-  } catch (...) {
-    std::error_code ignored;
-    if (!direct) std::filesystem::remove(place, ignored);
-    throw;
-  }
-  if (!direct) replace_file(place, path_);
+  if (is_device(path_)) return write_parts(path_, text, binary);
+  UnfinishedFile file(path_);
+  write_parts(file.path(), text, binary);
+  file.publish();
 }
 
 /// Writes header, JSON and data of the file to `place`.
