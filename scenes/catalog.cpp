@@ -41,8 +41,11 @@ std::string description(const fs::path& file) {
 fs::path scenes_folder(const fs::path& folder) {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path installed = program.parent_path().parent_path() / "share/sunder/scenes";
+  const fs::path above = program.parent_path().parent_path();
+  const fs::path installed = above / "share/sunder/scenes";
   if (fs::is_directory(installed)) return installed;
+  // A program in the build folder of a source tree has the scenes of that tree, wherever it is now.
+  if (fs::is_regular_file(above / "scenes/materials.toml")) return above / "scenes";
   if (fs::is_directory(folder)) return folder;
   throw InputError("no catalogue of scenes found: neither " + installed.string() +
                    (folder.empty() ? "" : " nor " + folder.string()) +

@@ -4,9 +4,11 @@
 // Read first: bench(), then measure(). Every run is a process of its own and returns an object of
 // figures, from which all reports are made.
 #include <sched.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -100,6 +102,7 @@ int exec_program(const BenchOptions& options, const Timed& timed, std::FILE* fil
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it may be any program
   if (dup2(fileno(file), STDOUT_FILENO) >= 0) execv(timed.program.c_str(), arguments.data());
   return 1;
 }
@@ -238,6 +241,8 @@ int bench(const BenchOptions& options) {
   const std::optional<double> fail_slower = fail_slower_of(options);
   check_program(options.against);
   scenes::StateHashes book = scenes::read_hashes(options.hashes);
+  options.print((book.empty() ? "no stored states in " : "stored states of ") +
+                place_text(options.hashes) + "\n");
   std::vector<Figures> old;
   if (!options.compare.empty()) old = read_timings(options.compare);
 

@@ -45,14 +45,7 @@ std::string installed_goldens_folder() {
   return (program_file().parent_path().parent_path() / "share/sunder/golden").string();
 }
 
-std::string own_goldens_folder() {
-#ifdef SUNDER_BUILD_FOLDER
-  std::error_code ignored;
-  if (fs::equivalent(program_file().parent_path(), SUNDER_BUILD_FOLDER, ignored))
-    return SUNDER_GOLDENS_FOLDER;
-#endif
-  return "tests/golden";
-}
+std::string own_goldens_folder() { return "tests/golden"; }
 
 std::string goldens_folder() {
   const std::string own = own_goldens_folder();
@@ -67,6 +60,17 @@ std::string hashes_file() {
   const std::string own = own_goldens_folder() + "/hashes.txt";
   std::error_code ignored;
   return fs::exists(own, ignored) ? own : goldens_folder() + "/hashes.txt";
+}
+
+std::string place_text(const std::string& place) {
+  const auto full = [](const std::string& path) {
+    return fs::absolute(path).lexically_normal().string();
+  };
+  const std::string installed = installed_goldens_folder();
+  const bool is_default = place == goldens_folder() || place == hashes_file();
+  if (!is_default || !place.starts_with(installed)) return full(place);
+  return full(place) + ", installed with the program; there is no " +
+         full(own_goldens_folder() + place.substr(installed.size()));
 }
 
 }  // namespace sunder::app

@@ -30,18 +30,21 @@ struct CommonOptions {
   void write_json(const std::string& text) const;
 };
 
-/// Returns the folder of the goldens to compare with: that of the source tree if the program runs
-/// in the folder where it was built; otherwise tests/golden in the working directory if there are
-/// goldens, or else the goldens that are installed with the program.
+/// Returns the folder of the goldens to compare with: tests/golden in the working directory if
+/// there are goldens, or else that of the goldens that are installed with the program, if there are
+/// any.
 std::string goldens_folder();
-/// Returns the folder in which goldens are recorded and accepted: as goldens_folder(), but never
-/// that of the installed goldens, which belong to the package.
+/// Returns the folder in which goldens are recorded and accepted, tests/golden in the working
+/// directory: installed goldens belong to the package.
 std::string own_goldens_folder();
 /// Returns the folder in which the goldens are when the program is installed.
 std::string installed_goldens_folder();
 /// Returns the file of the stored state hashes to compare with: hashes.txt in own_goldens_folder()
 /// if there is one, or else in goldens_folder().
 std::string hashes_file();
+/// Returns the absolute path of a folder of goldens or a file of hashes, to be printed, and why it
+/// is the installed one, if it is.
+std::string place_text(const std::string& place);
 
 struct ListOptions : CommonOptions {
   bool keys = false;
@@ -55,10 +58,11 @@ struct CheckOptions : CommonOptions {
 struct SimulateOptions : CommonOptions {
   std::string scene;
   scenes::LoadOptions load;
-  int frames = -1;     ///< Index of the last frame; -1: to the end of the scene.
-  std::string take;    ///< File to record to; empty: none.
-  std::string verify;  ///< Recording to compare with; empty: none.
-  std::string events;  ///< File for a line of JSON for each event; empty: none.
+  int frames = -1;          ///< Index of the last frame; -1: to the end of the scene.
+  std::string take;         ///< File to record to; empty: none.
+  std::string verify;       ///< Recording to compare with; empty: none.
+  bool keep_going = false;  ///< True to go on after the first frame that differs from it.
+  std::string events;       ///< File for a line of JSON for each event; empty: none.
   /// Least closing speed of the hits among the events; infinity: none are.
   double hits_m_s = std::numeric_limits<double>::infinity();
   std::string trace;                       ///< File for spans of all threads; empty: none.

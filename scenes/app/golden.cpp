@@ -166,8 +166,13 @@ void compare(Drawer& drawer, GoldenResult& result, const GoldenOptions& options)
   result.verdicts.insert(result.verdicts.begin(), check_drawing(drawer, result, *frame, fault));
 }
 
+void print_folder(const GoldenOptions& options) {
+  options.print("goldens of " + place_text(options.folder) + "\n");
+}
+
 std::vector<GoldenResult> compare_all(const GoldenOptions& options) {
   options.apply();
+  print_folder(options);
   Drawer drawer(options.gl);
   std::vector<GoldenResult> results;
   std::string failed;
@@ -243,6 +248,7 @@ int golden_report(const GoldenOptions& options) {
 /// Stores new pictures, frames and states where they differ, and leaves the others unchanged.
 int golden_accept(const GoldenOptions& options) {
   options.apply();
+  print_folder(options);
   Drawer drawer(options.gl);
   for (const std::string& name : options.names) {
     GoldenResult result;
@@ -280,6 +286,7 @@ int golden_accept(const GoldenOptions& options) {
 // Stores a frame of a scene as a golden, whose picture and states must still be accepted.
 int golden_record(const GoldenOptions& options) {
   options.apply();
+  print_folder(options);
   check_name(options.names.front());
   Golden golden;
   golden.folder = options.folder;

@@ -90,7 +90,7 @@ std::vector<std::string> golden_names(const fs::path& folder) {
     }
   }
   if (names.empty())
-    throw InputError(folder.string() +
+    throw InputError(fs::absolute(folder).lexically_normal().string() +
                      ": no goldens (NAME.json) in this folder; give their folder by --folder");
   std::sort(names.begin(), names.end());
   return names;

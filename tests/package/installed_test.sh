@@ -23,7 +23,11 @@ before=$(state)
 "$sunder" list --json list.json >/dev/null
 grep -q "$folder/prefix/share/sunder/scenes" list.json || fail "the scenes are others"
 "$sunder" golden test stack >golden.txt || fail "golden test: $(cat golden.txt)"
-"$sunder" bench stack --repeats 1 --warm-up 0 --quiet --json bench.json || fail "bench"
+grep -qx "goldens of $folder/prefix/share/sunder/golden, installed with the program; there is no \
+$folder/work/tests/golden" golden.txt || fail "the goldens are others: $(cat golden.txt)"
+"$sunder" bench stack --repeats 1 --warm-up 0 --json bench.json >bench.txt || fail "bench"
+grep -q "^stored states of $folder/prefix/.*; there is no $folder/work/tests/golden/hashes.txt$" bench.txt ||
+  fail "the stored states are others: $(cat bench.txt)"
 if "$sunder" golden accept stack 2>refused.txt; then fail "an installed golden was accepted"; fi
 grep -q "tests/golden: no goldens" refused.txt || fail "golden accept: $(cat refused.txt)"
 
@@ -35,6 +39,7 @@ if "$sunder" golden test stack >golden.txt; then fail "a wrong picture passes"; 
 grep -q "sunder golden accept stack" golden.txt || fail "no remedy is named: $(cat golden.txt)"
 "$sunder" golden accept stack --quiet
 "$sunder" golden test stack >golden.txt || fail "golden test after accept: $(cat golden.txt)"
+grep -qx "goldens of $folder/work/tests/golden" golden.txt || fail "$(cat golden.txt)"
 rm -r tests
 "$sunder" bench stack --accept --repeats 1 --warm-up 0 --quiet
 [ -s tests/golden/hashes.txt ] || fail "bench --accept stored no states"

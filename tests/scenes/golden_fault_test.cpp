@@ -276,8 +276,8 @@ TEST(GoldenFaults, NoNumberOfThreadsAndNoContextGivesAFalseFailure) {
                              Drawn{"osmesa", 2}, Drawn{"osmesa", 4}}) {
     for (const int threads : {1, 2, 3, 4, 7}) {
       const Outcome outcome =
-          sunder("golden test column_row glass_near --json - --gl " + std::string(drawn.gl) +
-                     " --threads " + std::to_string(threads),
+          sunder("golden test column_row glass_near --folder " + kGoldens.string() +
+                     " --json - --gl " + drawn.gl + " --threads " + std::to_string(threads),
                  "LP_NUM_THREADS=" + std::to_string(drawn.threads) + " ");
       if (outcome.exit_code == 2) break;  // there is no such context here
       EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;

@@ -1,11 +1,14 @@
 // Tests of goldens: stored frames and their scenes give the stored pictures and states, and the
 // comparison tells different pictures apart.
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -45,7 +48,8 @@ void copy_golden(const std::string& name, const Folder& folder) {
 // Takes half a minute on two processors.
 TEST(Golden, DrawingAndSimulationAreUnchanged) {
   const Folder folder;
-  const Outcome outcome = sunder("golden test --out " + folder / "out");
+  const Outcome outcome =
+      sunder("golden test --folder " + kGoldens.string() + " --out " + folder / "out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
 }
 
@@ -259,18 +263,58 @@ TEST(Golden, ABaselineOfAnotherSizeIsNamedAsThat) {
       << outcome.out;
 }
 
-TEST(Golden, ACopiedProgramTestsAndAcceptsInTheWorkingDirectory) {
-  const Folder folder;
-  const std::string program = folder / "sunder-copy";
-  fs::copy_file(SUNDER_PROGRAM, program);
+TEST(Golden, OfTheWorkingDirectoryAreTestedAndAcceptedByWhateverProgramRunsThere) {
+  const Folder folder, elsewhere;
+  const fs::path own = folder.path() / "tests/golden";
+  fs::create_directories(own);
+  for (const char* extension : {".frame", ".png", ".json"})
+    fs::copy(kGoldens / (std::string("glass") + extension), own);
+  fs::copy(kGoldens / "house.png", own / "glass.png", fs::copy_options::overwrite_existing);
+  std::ofstream(own / "hashes.txt");
   const std::string enter = "cd " + folder.path().string() + " && ";
-  const std::string arguments = "golden test glass --out " + folder / "out";
-  const std::string err = folder / "err";
-  EXPECT_NE(std::system((enter + program + " " + arguments + " >/dev/null 2>" + err).c_str()), 0);
-  const std::string refusal = scenes::read_text(err);
-  EXPECT_NE(refusal.find("tests/golden: no goldens (NAME.json) in this folder; give their folder"),
-            std::string::npos)
-      << refusal;
+  const std::string copy = elsewhere / "sunder";
+  fs::copy_file(SUNDER_PROGRAM, copy);
+  const std::string text = elsewhere / "text";
+  const auto run = [&](const std::string& program, const std::string& arguments) {
+    const int status =
+        std::system((enter + program + " " + arguments + " >" + text + " 2>&1").c_str());
+    return std::pair(WEXITSTATUS(status), scenes::read_text(text));
+  };
+  const std::string of = "goldens of " + fs::canonical(own).string() + "\n";
+  for (const std::string& program : {std::string("\"" SUNDER_PROGRAM "\""), copy}) {
+    const auto [code, out] = run(program, "golden test glass");
+    EXPECT_EQ(code, 1) << out;
+    EXPECT_TRUE(out.starts_with(of)) << out;
+    EXPECT_NE(out.find("FAIL glass: drawing differs"), std::string::npos) << out;
+    const auto [bench_code, bench_out] = run(program, "bench --from nowhere.json");
+    EXPECT_EQ(bench_code, 2);
+    EXPECT_NE(
+        bench_out.find("no stored states in " + fs::canonical(own).string() + "/hashes.txt\n"),
+        std::string::npos)
+        << bench_out;
+  }
+  const std::string before = scenes::read_text(kGoldens / "glass.png");
+  const auto [code, out] = run("\"" SUNDER_PROGRAM "\"", "golden accept glass");
+  EXPECT_EQ(code, 0) << out;
+  EXPECT_TRUE(out.starts_with(of)) << out;
+  EXPECT_EQ(run(copy, "golden test glass").first, 0);
+  EXPECT_EQ(scenes::read_text(kGoldens / "glass.png"), before);
+  EXPECT_NE(scenes::read_text(own / "hashes.txt"), "");
+}
+
+TEST(Golden, AWorkingDirectoryWithoutAnyIsRefusedByName) {
+  const Folder folder;
+  for (const std::string& command :
+       {std::string("test glass"), std::string("test"), std::string("accept glass")}) {
+    const Outcome outcome = sunder("golden " + command, "cd " + folder.path().string() + " && ");
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_NE(outcome.err.find(fs::canonical(folder.path()).string() +
+                               "/tests/golden: no goldens (NAME.json) in this folder; give their "
+                               "folder by --folder"),
+              std::string::npos)
+        << outcome.err;
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(Golden, AFileWithAWrongSizeOrUnclosedBracketsIsRefused) {

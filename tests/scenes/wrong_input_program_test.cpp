@@ -130,7 +130,8 @@ TEST_F(WrongInput, IsNamed) {
       {"trade a.toml --shard 3/2", "3/2"},
       {"trade a.toml --list --switch =1", "KEY=VALUE"},
       {"trade a.toml -o out --set scene.seed=x", "its own seed"},
-      {"golden test nope", "nope"},
+      {"golden test nope", "tests/golden: no goldens"},
+      {"golden test nope --folder " SUNDER_ROOT "/tests/golden", "nope: no such golden"},
       {"check nope.toml a.toml", "nope.toml"}};
   for (const auto& [arguments, said] : lines) expect(arguments, said);
 }
