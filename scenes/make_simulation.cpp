@@ -168,23 +168,31 @@ World make_world(Scene scene, const SimulationOptions& options) {
   return world;
 }
 
-std::vector<std::byte> save_world(const World& world) {
+std::vector<std::byte> save_world(const World& world, const RunSoFar& so_far) {
   Archive bytes;
   world.save(bytes);
+  RunSoFar copy = so_far;
+  bytes(copy);
   return seal(bytes.take());
 }
 
 World restore_world(std::span<const std::byte> bytes, const SimulationOptions& options,
-                    const std::string& name) {
+                    const std::string& name, RunSoFar* so_far) {
   const std::vector<std::byte> state = unseal(bytes, name);
   Archive archive(state);
   Scene scene;
   archive(scene);
   std::unique_ptr<Particles> particles = make_particles(scene);
   std::unique_ptr<Physics> physics = make_physics(scene);
-  auto breaker = fracture::make_pattern_breaker(failure_log(scene, options));
+  const std::shared_ptr<fracture::FailureLog> log = failure_log(scene, options);
+  auto breaker = fracture::make_pattern_breaker(log);
   World world(archive, std::move(scene), std::move(physics), std::move(breaker),
               std::move(particles));
+  RunSoFar saved;
+  archive(saved);
+  archive.finish();
+  if (log) log->count(saved.failed, saved.failed_m3);
+  if (so_far) *so_far = std::move(saved);
   world.set_threads(options.threads);
   if (options.inspect) world.inspect();
   if (options.count_loops) world.count_loops();

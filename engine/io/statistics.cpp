@@ -5,11 +5,13 @@
 #include <cmath>
 #include <fstream>
 #include <numeric>
+#include <set>
 #include <span>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/archive.h"
 #include "engine/base/printed.h"
 #include "engine/model/work_log.h"
 
@@ -28,6 +30,7 @@ struct Statistics::Series {
   std::vector<std::size_t> first_fracture;
   std::uint64_t pieces = 0;
   std::uint64_t frames = 0;
+  std::set<std::string> part_names;  ///< WorkItem::name of reports that were read.
 
   /// Selects wall time or processor time.
   using Clock = double (FrameReport::*)[kStages];
@@ -220,6 +223,19 @@ Json frame_json(const FrameReport& report, double ms, std::span<const double> fr
           {"work", work_json(report.work)}};
 }
 
+/// Writes or reads work items, whose names are kept in `names`.
+void archive_work(Archive& bytes, std::vector<WorkItem>& items, std::set<std::string>& names) {
+  std::uint64_t count = items.size();
+  bytes(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (bytes.reads()) items.emplace_back();
+    WorkItem& item = items[i];
+    std::string name = item.name;
+    bytes(item.stage, name, item.count, item.ms, item.loops);
+    if (bytes.reads()) item.name = names.insert(name).first->c_str();
+  }
+}
+
 }  // namespace
 
 std::string uncut_convexes_warning(std::uint64_t convexes, double volume_m3, double of_m3) {
@@ -273,8 +289,21 @@ void Statistics::take(const FramePtr& frame) {
   }
 }
 
+const RunInfo& Statistics::info() const { return series_->info; }
+
 std::string Statistics::limits_warning() const {
   return sunder::limits_warning(series_->limits, series_->limits_hit);
+}
+
+std::pair<std::uint64_t, double> Statistics::failed() const {
+  return {series_->sum(&FrameReport::failed), series_->sum(&FrameReport::failed_m3)};
+}
+
+void archive(Archive& bytes, Statistics& statistics) {
+  Statistics::Series& s = *statistics.series_;
+  bytes(s.info.preset, s.reports, s.first, s.last, s.limits, s.limits_hit, s.fracture_ms,
+        s.first_fracture, s.pieces, s.frames);
+  for (FrameReport& report : s.reports) archive_work(bytes, report.work, s.part_names);
 }
 
 std::string limits_warning(const LimitsHit& limits, std::uint32_t hits) {

@@ -6,12 +6,16 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "engine/model/frame.h"
 #include "engine/model/scene.h"
 
 namespace sunder {
+
+class Archive;
 
 /// Collects the hash of every frame.
 class StateHash final : public FrameSink {
@@ -21,6 +25,9 @@ class StateHash final : public FrameSink {
   std::string hex(std::size_t frames = SIZE_MAX) const;
   /// Returns the hash of each frame.
   const std::vector<std::uint64_t>& per_frame() const { return per_frame_; }
+
+  /// Returns the fields, for saved states.
+  static auto fields(auto& self) { return std::tie(self.per_frame_); }
 
  private:
   std::vector<std::uint64_t> per_frame_;
@@ -60,13 +67,20 @@ class Statistics final : public FrameSink {
   ~Statistics() override;
   void take(const FramePtr& frame) override;
 
+  /// Returns the description of the run.
+  const RunInfo& info() const;
   /// Returns a warning if limits were reached; else an empty string.
   std::string limits_warning() const;
+  /// Returns the number of convexes that breaks left whole, and their volume in m³.
+  std::pair<std::uint64_t, double> failed() const;
   /// Returns the `simulate` and `bench` object (README, "JSON") with a final newline. An empty
   /// `state_hash` is omitted; `per_frame` adds an array with an object per frame.
   std::string json(const std::string& state_hash, bool per_frame) const;
   /// Returns a readable table of stage timings, and the final counts.
   std::string table() const;
+
+  /// Writes or reads the preset and all that was collected, times included.
+  friend void archive(Archive& bytes, Statistics& statistics);
 
  private:
   struct Series;

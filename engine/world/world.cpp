@@ -311,7 +311,6 @@ World::World(Archive& bytes, Scene scene, std::unique_ptr<Physics> physics,
     : parts_(std::make_unique<Parts>(std::move(scene), std::move(physics), std::move(breaker),
                                      std::move(particles))) {
   bytes(*parts_);
-  bytes.finish();
 }
 
 World::World(World&&) noexcept = default;

@@ -155,7 +155,7 @@ class World {
   void save(Archive& bytes) const;
   /// Makes a world in the state that save() wrote, which goes on with the same bits, on the number
   /// of threads of the process. The scene has been read from `bytes`, the rest of the state has
-  /// not. Throws InputError if the bytes are damaged.
+  /// not; more may follow. Throws InputError if the bytes are damaged.
   World(Archive& bytes, Scene scene, std::unique_ptr<Physics> physics,
         std::unique_ptr<Breaker> breaker, std::unique_ptr<Particles> particles);
   /// Moves a world; the other can only be assigned to or destroyed.

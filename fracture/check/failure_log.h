@@ -28,7 +28,7 @@ class FailureLog {
   /// written. May be called from any thread.
   void keep(const Compound& compound, const BreakCommand& command);
   /// Counts the failures of a break that has been carried out.
-  void count(std::uint32_t failed, double failed_m3) { failed_ += failed, failed_m3_ += failed_m3; }
+  void count(std::uint64_t failed, double failed_m3) { failed_ += failed, failed_m3_ += failed_m3; }
 
   /// Return the number of convexes left whole so far, and their volume.
   std::uint64_t failed() const { return failed_; }

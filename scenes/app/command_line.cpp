@@ -43,9 +43,13 @@ void add_simulate(CLI::App& program, Command& chosen) {
   CLI::Option* const resume = command.app->add_option(
       "--resume", command.options->resume, "Go on from a saved state, in place of a scene");
   command.app->add_option("--take", command.options->take, "Record the run to this file");
-  command.app->add_option(
+  CLI::Option* const verify = command.app->add_option(
       "--verify", command.options->verify,
-      "A recording of the same run; fail at the first frame whose state differs");
+      "A recording of the same run; stop and fail at the first frame whose state differs");
+  command.app
+      ->add_flag("--keep-going", command.options->keep_going,
+                 "With --verify: go on to the end of the run, and count the frames that differ")
+      ->needs(verify);
   CLI::Option* events = command.app->add_option(
       "--events", command.options->events,
       "Write breaks, and bodies that appear, disappear, sleep and wake, as a line of JSON each");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/model/frame.h"
@@ -21,6 +22,11 @@ class RunNotes final : public FrameSink {
   /// Returns a line for each shot that appeared and touched nothing, or touched the ground first,
   /// and one if nothing broke; empty if there is nothing to say.
   std::string text() const;
+
+  /// Returns the fields that change in a run, for saved states.
+  static auto fields(auto& self) {
+    return std::tie(self.shots_, self.last_s_, self.names_, self.breaks_);
+  }
 
  private:
   struct Watched {

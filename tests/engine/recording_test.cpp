@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -304,36 +306,122 @@ TEST_F(Recording, OfAnUnreadableVersionIsRefusedWithAMessage) {
   EXPECT_NE(message.find("record it again"), std::string::npos) << message;
 }
 
-TEST_F(Recording, ARunOfTheSameFramesHasNoDifference) {
-  record(40);
-  RecordingReader take(path_);
-  RecordingVerifier verifier(take);
+/// A source of another source's frames, changed from one frame on.
+class Changed final : public FrameSource {
+ public:
+  Changed(FrameSource& source, std::uint64_t from, std::function<void(Frame&)> change)
+      : source_(source), from_(from), change_(std::move(change)) {}
+  FramePtr next() override {
+    const FramePtr frame = source_.next();
+    if (!frame || frame->index < from_) return frame;
+    auto changed = std::make_shared<Frame>(*frame);
+    change_(*changed);
+    return changed;
+  }
+
+ private:
+  FrameSource& source_;
+  std::uint64_t from_;
+  std::function<void(Frame&)> change_;
+};
+
+/// Compares a run with a recording to the end; returns the result, and true if it passes.
+std::pair<std::string, bool> verified(FrameSource& run, const fs::path& path) {
+  RecordingReader recording(path);
+  RecordingVerifier verifier(recording);
   FrameSink* const sinks[] = {&verifier};
+  pump(run, sinks);
+  return {verifier.result(), verifier.passes()};
+}
+
+TEST_F(Recording, ARunOfTheSameFramesMatches) {
+  record(40);
   Run run(40);
-  pump(run, sinks);
-  EXPECT_EQ(verifier.difference(), "");
-  EXPECT_EQ(verifier.same(), 40u);
+  EXPECT_EQ(verified(run, path_), std::pair(std::string("40 frames match the recording"), true));
 }
 
-TEST_F(Recording, ADifferentRunIsReportedByItsFirstFrameAndBody) {
+TEST_F(Recording, WhatDiffersIsNamedByFrameBodyAndFieldWithBothValues) {
   record(40);
-  RecordingReader take(path_);
-  RecordingVerifier verifier(take);
-  FrameSink* const sinks[] = {&verifier};
-  Run run(40, 1e-13, 31);
-  pump(run, sinks);
-  EXPECT_EQ(verifier.same(), 31u);
-  EXPECT_TRUE(verifier.difference().starts_with("frame 31: body 12 ")) << verifier.difference();
+  const auto body = [](Frame& frame, std::uint64_t key) -> FrameBody& {
+    return *std::ranges::find(frame.bodies, key, &FrameBody::key);
+  };
+  const auto says = [&](const std::function<void(Frame&)>& change, const std::string& expected) {
+    Run run(32);
+    Changed changed(run, 31, change);
+    const auto [result, passes] = verified(changed, path_);
+    EXPECT_EQ(result, "frame 31 differs, after 31 equal frames: " + expected);
+    EXPECT_FALSE(passes);
+  };
+  const std::string wall = "body 14 'wall.0': ";
+  says([&](Frame& f) { body(f, 14).X_WB.position.x() += 1e-9; },
+       wall + "position (14.5166667, 1.27527778, -2.17) m, recorded as the same to 0.0001 m");
+  says([&](Frame& f) { body(f, 14).X_WB.position.x() += 1; },
+       wall + "position (15.5166667, 1.27527778, -2.17) m, recorded (14.517, 1.2753, -2.1699) m");
+  says([&](Frame& f) { body(f, 14).X_WB.rotation = Quat(0, 0, 0, 1); },
+       wall + "orientation (x, y, z, w) (0, 0, 1, 0), recorded (0.58496, 0.083496, 0, 0.80664)");
+  says([&](Frame& f) { body(f, 14).velocity_W.z() += 3; },
+       wall + "velocity (1, -0.0633333333, -1.2) m/s, recorded (1, 0, -4) m/s");
+  says([&](Frame& f) { body(f, 14).angular_velocity_W.z() = 0.1; },
+       wall + "angular velocity (0, 0, 0.1) rad/s, recorded as the same to 0.5 rad/s");
+  says([&](Frame& f) { body(f, 15).asleep = false; },
+       "body 15 'ball': not asleep, recorded asleep");
+  says([&](Frame& f) { body(f, 14).is_static = true; }, wall + "static, recorded not static");
+  says([&](Frame& f) { body(f, 12).X_WB.position.x() += 1e-9, body(f, 14).asleep = true; },
+       "body 12: position (12.5166667, 1.27527778, -1.86) m, recorded as the same to 0.0001 m; "
+       "1 more body differs");
+  says([&](Frame& f) { f.instances.pop_back(); }, "body 26 'wall.0': 2 meshes, recorded 3");
+  says([&](Frame& f) { f.instances.back().mesh = MeshIndex(std::size_t{0}); },
+       "body 26 'wall.0': its meshes are others");
+  says(
+      [&](Frame& f) {
+        f.instances.clear();
+        f.bodies.clear();
+      },
+      "body 3 'ball' is only in the recording; 23 more bodies differ; 0 bodies, recorded 24");
+  says([&](Frame& f) { f.debris.pop_back(); }, "92 particles of debris, recorded 93");
+  says([&](Frame& f) { f.dust[5].position_W = Vec3f(1, 2, 3); },
+       "particle 5 of dust: position (1, 2, 3) m, recorded (-1.0625, 1, 0.40625) m");
 }
 
-TEST_F(Recording, ALongerRunIsReportedWhereTheRecordingEnds) {
+TEST_F(Recording, FramesAfterTheFirstThatDiffersAreCounted) {
+  record(40);
+  Run run(40, 1e-9, 31);
+  const auto [result, passes] = verified(run, path_);
+  EXPECT_TRUE(result.starts_with("frame 31 differs, after 31 equal frames: body 12: position "))
+      << result;
+  EXPECT_TRUE(result.ends_with("; in all, 9 of 40 frames differ")) << result;
+  EXPECT_FALSE(passes);
+}
+
+TEST_F(Recording, ThatIsShorterOrLongerThanTheRunIsSaidToBe) {
   record(10);
-  RecordingReader take(path_);
-  RecordingVerifier verifier(take);
-  FrameSink* const sinks[] = {&verifier};
-  Run run(12);
-  pump(run, sinks);
-  EXPECT_EQ(verifier.difference(), "frame 10: the recording has ended");
+  Run longer(12), shorter(7), later(10);
+  EXPECT_EQ(verified(longer, path_),
+            std::pair(std::string("10 frames match the recording; it ends with frame 9 and the run "
+                                  "goes on: compare the frames that both have by --frames 9"),
+                      false));
+  EXPECT_EQ(verified(shorter, path_),
+            std::pair(std::string("7 frames match the recording; it is longer than the run, by 3 "
+                                  "frames"),
+                      true));
+  for (int i = 0; i < 4; ++i) later.next();
+  EXPECT_EQ(verified(later, path_), std::pair(std::string("6 frames match the recording"), true));
+}
+
+TEST_F(Recording, ThatBeginsLaterThanTheRunIsSaidTo) {
+  {
+    Run run(10);
+    for (int i = 0; i < 4; ++i) run.next();
+    RecordingWriter writer(path_);
+    FrameSink* const sinks[] = {&writer};
+    pump(run, sinks);
+  }
+  Run run(10), before(3);
+  EXPECT_EQ(verified(run, path_),
+            std::pair(std::string("6 frames match the recording; it has none of the 4 frames with "
+                                  "which the run begins"),
+                      true));
+  EXPECT_FALSE(verified(before, path_).second) << "no frame was compared";
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <xxhash.h>
+
 #include "engine/io/frame_parts.h"
 #include "engine/io/particle_codes.h"
 #include "engine/io/state_hash.h"
@@ -14,9 +16,29 @@ namespace sunder {
 namespace {
 
 constexpr std::size_t kMaxInstances = 1 << 24;
-constexpr double kPositionSteps = 8192;
-constexpr double kRotationSteps = 4096;
-constexpr double kSpeedSteps = 2;  // coarse: speeds are not drawn
+/// Set in short hashes by field; one hash of the whole state has 8 bits.
+constexpr std::uint32_t kByField = 1u << 16;
+constexpr int kBitsOfField = 4;
+
+/// Returns a hash of the exact bits of a field, of kBitsOfField bits.
+std::uint32_t field_hash(HashedField field, const FrameBody& body) {
+  const auto hash = [](const auto& numbers) {
+    return static_cast<std::uint32_t>(
+        XXH3_64bits(numbers.data(), sizeof(double) * static_cast<std::size_t>(numbers.size())) >>
+        (64 - kBitsOfField));
+  };
+  switch (field) {
+    case HashedField::kPosition:
+      return hash(body.X_WB.position);
+    case HashedField::kOrientation:
+      return hash(body.X_WB.rotation.coeffs());
+    case HashedField::kVelocity:
+      return hash(body.velocity_W);
+    case HashedField::kAngularVelocity:
+      return hash(body.angular_velocity_W);
+  }
+  return 0;
+}
 
 // Columns of a body: position and rotation (extrapolated), velocities, flags, hash, key, centre of
 // mass, key less the key in the previous frame, name.
@@ -42,7 +64,7 @@ void encode(const FrameBody& body, std::int32_t* to) {
   put_code(to, body.velocity_W, kSpeedSteps);
   put_code(to, body.angular_velocity_W, kSpeedSteps);
   *to++ = (body.is_static ? 1 : 0) | (body.asleep ? 2 : 0);
-  *to++ = short_hash(body);
+  *to++ = short_hashes(body);
   const auto put_bits = [&](std::uint64_t bits) {
     *to++ = static_cast<std::int32_t>(bits);
     *to++ = static_cast<std::int32_t>(bits >> 32);
@@ -206,8 +228,18 @@ void read_report(ByteReader& in, Frame& frame) {
 
 }  // namespace
 
-std::int32_t short_hash(const FrameBody& body) {
-  return static_cast<std::int32_t>(hash_body(body) & 0xff);
+std::int32_t short_hashes(const FrameBody& body) {
+  std::uint32_t hashes = kByField;
+  for (int f = 0; f < kHashedFields; ++f)
+    hashes |= field_hash(static_cast<HashedField>(f), body) << (kBitsOfField * f);
+  return static_cast<std::int32_t>(hashes);
+}
+
+bool differs(HashedField field, const FrameBody& body, std::int32_t recorded) {
+  const auto bits = static_cast<std::uint32_t>(recorded);
+  if ((bits & kByField) == 0) return (hash_body(body) & 0xff) != bits;
+  const std::uint32_t mask = (1u << kBitsOfField) - 1;
+  return field_hash(field, body) != (bits >> (kBitsOfField * static_cast<int>(field)) & mask);
 }
 
 FrameCoder::FrameCoder()

@@ -1,7 +1,7 @@
 // Encoding of a frame in a recording, as a difference to the previous frame.
 //
 // Bodies are stored with 0.1 mm and 0.5 mrad, for display. The exact state is stored as hashes, for
-// comparison with another run: one of the frame, and a short one of each body.
+// comparison with another run: one of the frame, and short ones of each body.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,25 @@
 
 namespace sunder {
 
-/// Returns a short hash of a body's exact state, to find bodies that differ.
-std::int32_t short_hash(const FrameBody& body);
+/// Steps per m, per unit of a quaternion, and per m/s or rad/s, in which bodies are stored.
+inline constexpr double kPositionSteps = 8192, kRotationSteps = 4096;
+inline constexpr double kSpeedSteps = 2;  // coarse: speeds are not drawn
+
+/// Fields of a body's state of which a recording has a hash each.
+enum class HashedField { kPosition, kOrientation, kVelocity, kAngularVelocity };
+inline constexpr int kHashedFields = 4;
+
+/// Returns short hashes of a body's exact state, by field, to find what differs.
+std::int32_t short_hashes(const FrameBody& body);
+/// Returns true if a field has another short hash than a recorded body, of which `recorded` are the
+/// short hashes. Recordings of version 1.0 have one hash for all fields, so that all or none
+/// differ.
+bool differs(HashedField field, const FrameBody& body, std::int32_t recorded);
 
 /// One frame of a recording.
 struct RecordedFrame {
   Frame frame;                            ///< Without mesh store and materials.
-  std::vector<std::int32_t> body_hashes;  ///< short_hash() of each body's original state.
+  std::vector<std::int32_t> body_hashes;  ///< short_hashes() of each body's original state.
   std::uint32_t meshes = 0;               ///< Size of the mesh store at that time.
 };
 

@@ -51,7 +51,7 @@ class RecordingReader final : public FrameSource {
   const std::string& damage() const;
   /// True if the run finished; false if it was killed, or the file is truncated.
   bool is_complete() const;
-  /// Returns a short hash of the exact state of each body of the frame that next() returned last.
+  /// Returns short hashes (frame_coder.h) of each body of the frame that next() returned last.
   const std::vector<std::int32_t>& body_hashes() const;
 
  private:
