@@ -246,7 +246,7 @@ TEST(Golden, AcceptingWithoutAFrameAcceptsPictureViewAndSimulation) {
   recipe["set"] = {"scene.gravity=[0,9.81,0]", "view.fov_deg=30"};
   std::ofstream(folder / "box.json") << recipe;
   const Outcome accepted = sunder("golden accept box" + at);
-  EXPECT_TRUE(accepted.out.starts_with("accepted box: drawing ")) << accepted.out;
+  EXPECT_NE(accepted.out.find("\naccepted box: drawing "), std::string::npos) << accepted.out;
   EXPECT_NE(accepted.out.find(", new view, new simulation"), std::string::npos) << accepted.out;
   EXPECT_FALSE(fs::exists(folder / "box.frame"));
   EXPECT_EQ(sunder("golden test" + at).exit_code, 0);
@@ -270,7 +270,6 @@ TEST(Golden, OfTheWorkingDirectoryAreTestedAndAcceptedByWhateverProgramRunsThere
   for (const char* extension : {".frame", ".png", ".json"})
     fs::copy(kGoldens / (std::string("glass") + extension), own);
   fs::copy(kGoldens / "house.png", own / "glass.png", fs::copy_options::overwrite_existing);
-  std::ofstream(own / "hashes.txt");
   const std::string enter = "cd " + folder.path().string() + " && ";
   const std::string copy = elsewhere / "sunder";
   fs::copy_file(SUNDER_PROGRAM, copy);
