@@ -1,5 +1,7 @@
 // Tests of `sunder simulate` that goes on from saved states, and that is compared with recordings.
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -99,6 +101,24 @@ TEST_F(States, ARunThatGoesOnReportsTheCountsOfTheWholeRun) {
   EXPECT_GT(expected["fractures"]["events"], half["fractures"]["events"]) << "it breaks after";
   EXPECT_EQ(simulate("--resume " + first + " --frames 18").exit_code, 0);
   EXPECT_EQ(json(), half) << "no frame is counted twice";
+}
+
+TEST_F(States, AFolderOfImagesThatIsContinuedReportsTheWholeRun) {
+  const auto render = [&](const std::string& options) {
+    const Outcome outcome = sunder("render " + scene_ + " --preset draft --size 32x32 " + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
+  };
+  const std::string folder = folder_ / "images/";
+  const Outcome whole = render("--frames :20 -o " + folder);
+  for (int i = 11; i <= 20; ++i)
+    std::filesystem::remove(folder + "frame_000" + std::to_string(i) + ".png");
+  const Outcome rest = render("--frames :20 --resume -o " + folder);
+  EXPECT_NE(whole.out.find("'missed' at 0.2 s hit nothing"), std::string::npos) << whole.out;
+  EXPECT_EQ(rest.out, whole.out);
+  ASSERT_NE(whole.err.find("warning: limits"), std::string::npos) << whole.err;
+  EXPECT_EQ(rest.err.substr(rest.err.find("warning: limits")),
+            whole.err.substr(whole.err.find("warning: limits")));
 }
 
 TEST_F(States, ARunThatDiffersFromARecordingStopsThere) {

@@ -235,11 +235,19 @@ std::int32_t short_hashes(const FrameBody& body) {
   return static_cast<std::int32_t>(hashes);
 }
 
+bool has_hashes_of_fields(std::int32_t recorded) {
+  return (static_cast<std::uint32_t>(recorded) & kByField) != 0;
+}
+
+bool differs(const FrameBody& body, std::int32_t recorded) {
+  if (has_hashes_of_fields(recorded)) return short_hashes(body) != recorded;
+  return (hash_body(body) & 0xff) != static_cast<std::uint32_t>(recorded);
+}
+
 bool differs(HashedField field, const FrameBody& body, std::int32_t recorded) {
-  const auto bits = static_cast<std::uint32_t>(recorded);
-  if ((bits & kByField) == 0) return (hash_body(body) & 0xff) != bits;
   const std::uint32_t mask = (1u << kBitsOfField) - 1;
-  return field_hash(field, body) != (bits >> (kBitsOfField * static_cast<int>(field)) & mask);
+  const int shift = kBitsOfField * static_cast<int>(field);
+  return field_hash(field, body) != (static_cast<std::uint32_t>(recorded) >> shift & mask);
 }
 
 FrameCoder::FrameCoder()

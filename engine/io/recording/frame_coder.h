@@ -23,9 +23,12 @@ inline constexpr int kHashedFields = 4;
 
 /// Returns short hashes of a body's exact state, by field, to find what differs.
 std::int32_t short_hashes(const FrameBody& body);
-/// Returns true if a field has another short hash than a recorded body, of which `recorded` are the
-/// short hashes. Recordings of version 1.0 have one hash for all fields, so that all or none
-/// differ.
+/// Returns true if a body has another state than a recorded one of these short hashes.
+bool differs(const FrameBody& body, std::int32_t recorded);
+/// Returns true if there is a hash of each field. The first recordings of version 1.0 have one of
+/// the whole state.
+bool has_hashes_of_fields(std::int32_t recorded);
+/// Returns true if a field has another hash; there must be one of each field.
 bool differs(HashedField field, const FrameBody& body, std::int32_t recorded);
 
 /// One frame of a recording.

@@ -23,12 +23,16 @@ std::string numbers_text(const auto& numbers, int digits) {
   return text + ")";
 }
 
-/// Returns both values of a field, the recorded one only if it differs by more than the step in
-/// which it is stored.
+/// Returns true if numbers are as recorded, in steps of 1 / `steps`.
+bool are_near(const auto& now, const auto& then, double steps) {
+  return (now - then).cwiseAbs().maxCoeff() < 1 / steps;
+}
+
+/// Returns both values of a field, the recorded one only if it is not the same step.
 std::string values_text(const auto& now, const auto& then, const char* name, const char* unit,
                         double steps) {
   const std::string text = std::string(name) + " " + numbers_text(now, 9) + unit;
-  if ((now - then).cwiseAbs().maxCoeff() < 1 / steps)
+  if (are_near(now, then, steps))
     return text + ", recorded as the same to " + printed("%.1g", 1 / steps) + unit;
   return text + ", recorded " + numbers_text(then, 5) + unit;
 }
@@ -59,16 +63,18 @@ std::string fields_text(const Compared& now, const Compared& then, std::int32_t 
   std::string text;
   const auto add = [&](const std::string& field) { text += (text.empty() ? "" : "; ") + field; };
   const FrameBody &a = now.body, &b = then.body;
-  if (differs(HashedField::kPosition, a, hashes))
-    add(values_text(a.X_WB.position, b.X_WB.position, "position", " m", kPositionSteps));
-  if (differs(HashedField::kOrientation, a, hashes))
-    add(values_text(a.X_WB.rotation.coeffs(), b.X_WB.rotation.coeffs(), "orientation (x, y, z, w)",
-                    "", kRotationSteps));
-  if (differs(HashedField::kVelocity, a, hashes))
-    add(values_text(a.velocity_W, b.velocity_W, "velocity", " m/s", kSpeedSteps));
-  if (differs(HashedField::kAngularVelocity, a, hashes))
-    add(values_text(a.angular_velocity_W, b.angular_velocity_W, "angular velocity", " rad/s",
-                    kSpeedSteps));
+  const auto compare = [&](HashedField field, const auto& x, const auto& y, const char* name,
+                           const char* unit, double steps) {
+    if (has_hashes_of_fields(hashes) ? differs(field, a, hashes) : !are_near(x, y, steps))
+      add(values_text(x, y, name, unit, steps));
+  };
+  compare(HashedField::kPosition, a.X_WB.position, b.X_WB.position, "position", " m",
+          kPositionSteps);
+  compare(HashedField::kOrientation, a.X_WB.rotation.coeffs(), b.X_WB.rotation.coeffs(),
+          "orientation (x, y, z, w)", "", kRotationSteps);
+  compare(HashedField::kVelocity, a.velocity_W, b.velocity_W, "velocity", " m/s", kSpeedSteps);
+  compare(HashedField::kAngularVelocity, a.angular_velocity_W, b.angular_velocity_W,
+          "angular velocity", " rad/s", kSpeedSteps);
   if (a.asleep != b.asleep) add(flag_text(a.asleep, "asleep"));
   if (a.is_static != b.is_static) add(flag_text(a.is_static, "static"));
   if (now.meshes != then.meshes)
@@ -76,6 +82,7 @@ std::string fields_text(const Compared& now, const Compared& then, std::int32_t 
             ? std::string("its meshes are others")
             : count_text(now.meshes.size(), "mesh", "meshes") + ", recorded " +
                   std::to_string(then.meshes.size()));
+  if (text.empty() && differs(a, hashes)) add("a field, by less than is recorded of it");
   return text;
 }
 
