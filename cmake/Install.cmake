@@ -60,7 +60,7 @@ configure_file(${PROJECT_SOURCE_DIR}/cmake/sunder.pc.in ${PROJECT_BINARY_DIR}/su
 install(FILES ${PROJECT_BINARY_DIR}/sunder.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tests/golden
   DESTINATION ${CMAKE_INSTALL_DATADIR}/sunder COMPONENT program
-  FILES_MATCHING PATTERN "*.frame" PATTERN "*.json" PATTERN "*.png" PATTERN "*.toml" PATTERN "*.txt"
+  FILES_MATCHING PATTERN "*.frame" PATTERN "*.glb" PATTERN "*.json" PATTERN "*.png" PATTERN "*.toml" PATTERN "*.txt"
   PATTERN "*.view")
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sunder)

@@ -173,6 +173,8 @@ void write_frame(const std::filesystem::path& path, const Frame& frame) {
   write_file(path, file.bytes);
 }
 
+FramePtr as_stored(const Frame& frame) { return frame_of(content_of(frame), "a frame"); }
+
 bool is_stored_frame(const std::filesystem::path& path) {
   return begins_with(path, {kMagic, sizeof kMagic - 1});  // without the version
 }

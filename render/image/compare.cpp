@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
+#include <utility>
 
 #include "render/image/flip.h"
 
@@ -59,14 +61,23 @@ Image heat_map(const Image& like, const std::vector<float>& errors) {
   return heat;
 }
 
-}  // namespace
+/// Returns an image as it looks before a background of this level.
+Image before_background(const Image& image, int level) {
+  Image flat{image.width, image.height, image.rgb};
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    const int alpha = image.alpha[i];
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      flat.rgb[c] =
+          static_cast<std::uint8_t>((image.rgb[c] * alpha + level * (255 - alpha) + 127) / 255);
+    }
+  }
+  return flat;
+}
 
-Difference compare(const Image& reference, const Image& actual) {
+/// Compares images of one size without transparent pixels.
+Difference compare_opaque(const Image& reference, const Image& actual) {
   Difference difference;
-  difference.same_size = reference.width == actual.width && reference.height == actual.height;
-  difference.same_bytes = reference == actual;
-  if (difference.same_bytes || !difference.same_size) return difference;
-
+  difference.same_size = true;
   const std::vector<float> errors = flip_errors(reference, actual);
   double sum = 0;
   for (const float error : errors) sum += static_cast<double>(error);
@@ -74,6 +85,38 @@ Difference compare(const Image& reference, const Image& actual) {
   find_worst_window(reference, actual, difference);
   difference.heat_map = heat_map(reference, errors);
   return difference;
+}
+
+/// Returns a value as a fraction of the most that is allowed.
+double fraction(double value, double most) {
+  if (value <= 0) return 0;
+  return most > 0 ? value / most : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double Difference::share_of(const Thresholds& thresholds) const {
+  if (same_bytes) return 0;
+  if (!same_size) return std::numeric_limits<double>::infinity();
+  return std::max(fraction(flip_mean, thresholds.flip_mean),
+                  fraction(worst_window_pixels, thresholds.window_pixels));
+}
+
+Difference compare(const Image& reference, const Image& actual) {
+  Difference difference;
+  difference.same_size = reference.width == actual.width && reference.height == actual.height;
+  difference.same_bytes = reference == actual;
+  if (difference.same_bytes || !difference.same_size) return difference;
+  if (reference.alpha.empty() && actual.alpha.empty()) return compare_opaque(reference, actual);
+
+  Difference black = compare_opaque(before_background(reference, 0), before_background(actual, 0));
+  Difference white =
+      compare_opaque(before_background(reference, 255), before_background(actual, 255));
+  Difference worst = white.worst_window_pixels > black.worst_window_pixels ? white : black;
+  if (black.flip_mean > white.flip_mean) std::swap(black, white);
+  worst.flip_mean = white.flip_mean;
+  worst.heat_map = std::move(white.heat_map);
+  return worst;
 }
 
 }  // namespace sunder::render

@@ -23,8 +23,13 @@ struct Difference {
     return same_bytes || (same_size && flip_mean <= thresholds.flip_mean &&
                           worst_window_pixels <= thresholds.window_pixels);
   }
+  /// Returns the larger one of the two figures as a fraction of its threshold, 0 for equal images;
+  /// at most 1 if the difference passes, infinite for another size.
+  double share_of(const Thresholds& thresholds) const;
 };
 
+/// Compares two images. Those with transparent pixels are compared before black and before white,
+/// and the larger one of each figure counts.
 Difference compare(const Image& reference, const Image& actual);
 
 }  // namespace sunder::render

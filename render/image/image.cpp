@@ -33,10 +33,12 @@ void append(void* bytes, void* data, int size) {
 
 using Pixels = std::unique_ptr<stbi_uc, void (*)(void*)>;
 
+std::size_t count_pixels(const Image& image) {
+  return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
 void copy_pixels(const Pixels& pixels, Image& image) {
-  const std::size_t size =
-      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * kChannels;
-  image.rgb.assign(pixels.get(), pixels.get() + size);
+  image.rgb.assign(pixels.get(), pixels.get() + kChannels * count_pixels(image));
 }
 
 /// Appends a number, highest byte first (big-endian, as in PNG).
@@ -141,10 +143,18 @@ void write_png(const std::filesystem::path& path, const Image16& image) {
 Image read_png(const std::filesystem::path& path) {
   Image image;
   int channels = 0;
-  const Pixels pixels(stbi_load(path.c_str(), &image.width, &image.height, &channels, kChannels),
-                      stbi_image_free);
+  const Pixels pixels(
+      stbi_load(path.c_str(), &image.width, &image.height, &channels, kChannels + 1),
+      stbi_image_free);
   if (!pixels) throw InputError(path.string() + ": not a readable PNG: " + stbi_failure_reason());
-  copy_pixels(pixels, image);
+  const bool has_alpha = channels == 2 || channels == 4;
+  const std::size_t size = count_pixels(image);
+  image.rgb.reserve(kChannels * size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const stbi_uc* const pixel = pixels.get() + (kChannels + 1) * i;
+    image.rgb.insert(image.rgb.end(), pixel, pixel + kChannels);
+    if (has_alpha) image.alpha.push_back(pixel[kChannels]);
+  }
   return image;
 }
 

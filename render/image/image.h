@@ -47,7 +47,8 @@ void write_png(const std::filesystem::path& path, const Image& image);
 /// Writes a PNG file of 16 bits per channel with the metadata as tEXt chunks, under a temporary
 /// name, and renames it. Throws FileError if that fails.
 void write_png(const std::filesystem::path& path, const Image16& image);
-/// Reads a PNG file without its alpha. Throws InputError if that fails.
+/// Reads a PNG file of 8 bits per channel, with its alpha if it has one. Throws InputError if that
+/// fails.
 Image read_png(const std::filesystem::path& path);
 
 /// Decodes a PNG or JPEG in memory. Throws InputError if it is neither, or over 16384 pixels a

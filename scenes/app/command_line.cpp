@@ -82,6 +82,19 @@ void add_looks(CLI::App* app, render::RenderOptions& options) {
   app->add_option("--view-mode", options.view_mode,
                   std::string("How pieces are shown: ") + render::kViewModes)
       ->capture_default_str();
+  app->add_option("--samples", options.samples,
+                  "Samples per image: antialiasing, and motion blur by view.shutter")
+      ->check(from_to(1, 1024))
+      ->capture_default_str();
+  app->add_flag("--transparent", options.transparent,
+                "Images with a transparent background instead of ground and sky");
+}
+
+void add_speed(CLI::App* app, double& speed) {
+  app->add_option("--speed", speed,
+                  "Speed of the video; 0.1 is ten times slower, with interpolated frames")
+      ->check(from_to(0.001, 1000.0))
+      ->capture_default_str();
 }
 
 void add_render(CLI::App& program, Command& chosen) {
@@ -104,11 +117,7 @@ void add_render(CLI::App& program, Command& chosen) {
                    std::string("Camera: ") + render::kCameras + " | FILE.toml, a camera path")
       ->type_name("SPEC")
       ->capture_default_str();
-  command.app
-      ->add_option("--speed", options.speed,
-                   "Speed of the video; 0.1 is ten times slower, with interpolated frames")
-      ->check(from_to(0.001, 1000.0))
-      ->capture_default_str();
+  add_speed(command.app, options.speed);
   command.app->add_option("--fps", options.render.frames_per_s, "Images per second of the video")
       ->check(from_to(1, 1000))
       ->capture_default_str();
@@ -125,19 +134,12 @@ void add_render(CLI::App& program, Command& chosen) {
                    "Pixels; by default 1280x720, and 480x270 for images of a sheet")
       ->type_name("WxH");
   command.app
-      ->add_option("--samples", options.render.samples,
-                   "Samples per image: antialiasing, and motion blur by view.shutter")
-      ->check(from_to(1, 1024))
-      ->capture_default_str();
-  command.app
       ->add_option("--also", options.render.layers,
                    std::string("Additional images, of 16 bits, depth_m of 32-bit floats: ") +
                        render::kLayers)
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command.app->add_flag("--transparent", options.render.transparent,
-                        "Images with a transparent background instead of ground and sky");
   command.app
       ->add_option("--gl", options.render.gl, "auto | egl-device:N | egl-surfaceless | osmesa")
       ->capture_default_str();
@@ -446,6 +448,15 @@ void add_golden(CLI::App& program, Command& chosen) {
   const auto accept = add("accept", "Store the current images and states as the expected ones",
                           golden_accept, own_goldens_folder());
   accept.app->add_option("NAME", accept.options->names, "Goldens")->required();
+  accept.app
+      ->add_option("--rebase", accept.options->rebase,
+                   "Accept pictures however far they are from the originals, and store the reason")
+      ->type_name("REASON")
+      ->check([](const std::string& reason) {
+        return reason.find_first_not_of(" \t\n") == std::string::npos
+                   ? "give the reason why the pictures change"
+                   : "";
+      });
   auto record = add("record", "Store a frame of a scene as a golden's subject", golden_record,
                     own_goldens_folder());
   record.app
@@ -465,6 +476,13 @@ void add_golden(CLI::App& program, Command& chosen) {
       ->type_name("WxH")
       ->capture_default_str();
   add_looks(record.app, record.options->render);
+  record.app
+      ->add_option("--layer", record.options->layer,
+                   std::string("Draw a data layer in place of the image: ") + render::kLayers)
+      ->type_name("NAME");
+  add_speed(record.app, record.options->speed);
+  record.app->add_flag("--to-the-end", record.options->to_the_end,
+                       "Also store the states of each second to the end of the scene");
   record.add_changes();
 }
 

@@ -167,13 +167,17 @@ struct GoldenOptions : CommonOptions {
   std::string folder = goldens_folder();
   std::string out = "out/golden";
   std::string gl = "auto";
-  bool full = false;  ///< True to also simulate whole scenes.
-  std::string junit;  ///< File of JUnit XML to write; empty: none.
+  bool full = false;   ///< True to also simulate whole scenes.
+  std::string junit;   ///< File of JUnit XML to write; empty: none.
+  std::string rebase;  ///< Reason to accept pictures far from their originals; empty: do not.
   // Options of golden_record() alone.
   std::string scene;  ///< File or name of a scene, or file of a stored frame.
   scenes::LoadOptions load;
   int frame = -1;
+  double speed = 1;
+  std::string layer;
   bool no_frame = false;  ///< True to draw the picture from the simulation.
+  bool to_the_end = false;
   std::string size = "640x360";
   render::RenderOptions render;
 };

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <set>
 #include <span>
@@ -23,7 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxSide_px = 8192;  // as --size
+constexpr int kMaxSide_px = 8192;                      // as --size
+constexpr int kMaxSamples = 1024;                      // as --samples
+constexpr double kMinSpeed = 0.001, kMaxSpeed = 1000;  // as --speed
 
 template <class T>
 T value(const Figures& figures, const std::string& place, const fs::path& file) {
@@ -31,6 +36,12 @@ T value(const Figures& figures, const std::string& place, const fs::path& file) 
   const T* exact = found == figures.end() ? nullptr : std::get_if<T>(&found->second);
   if (!exact) throw InputError(file.string() + ": " + place + " is missing or of the wrong type");
   return *exact;
+}
+
+/// As value(), for a key that is left out if it has the usual value.
+template <class T>
+T value_or(const Figures& figures, const std::string& place, const fs::path& file, T usual) {
+  return figures.contains(place) ? value<T>(figures, place, file) : usual;
 }
 
 int whole(const Figures& figures, const std::string& place, const fs::path& file, int low,
@@ -54,6 +65,13 @@ std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
   return text + "'";
+}
+
+/// Returns a number with the fewest digits that give it again.
+std::string short_number(double number) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, number);
+  return {text, end};
 }
 
 bool same_look(const Look& a, const Look& b) {
@@ -105,16 +123,25 @@ fs::path Golden::frame_file() const {
   return is_simulated() ? file(has_frame ? ".frame" : ".view") : fs::path(scene_file());
 }
 
-std::string accept_command(const fs::path& folder, const std::string& names) {
-  if (folder == installed_goldens_folder()) {
-    return "mkdir -p tests && cp -r " + quoted(folder.string()) +
-           " tests/golden && sunder golden accept " + names;
-  }
-  const bool is_usual = folder == own_goldens_folder();
-  return "sunder golden accept " + names + (is_usual ? "" : " --folder " + quoted(folder.string()));
+int Golden::last_source_frame() const {
+  if (speed == 1) return frame;
+  // Interpolation between two frames depends on the next one, too.
+  return static_cast<int>(std::ceil(frame * speed)) + 1;
 }
 
-std::string Golden::accept_command() const { return app::accept_command(folder, name); }
+std::string accept_command(const fs::path& folder, const std::string& names, bool rebases) {
+  const std::string given = names + (rebases ? " --rebase \"REASON\"" : "");
+  if (folder == installed_goldens_folder()) {
+    return "mkdir -p tests && cp -r " + quoted(folder.string()) +
+           " tests/golden && sunder golden accept " + given;
+  }
+  const bool is_usual = folder == own_goldens_folder();
+  return "sunder golden accept " + given + (is_usual ? "" : " --folder " + quoted(folder.string()));
+}
+
+std::string Golden::accept_command(bool rebases) const {
+  return app::accept_command(folder, name, rebases);
+}
 
 std::string Golden::command() const {
   std::string text = "sunder golden record " + name + " " + quoted(scene_file());
@@ -123,7 +150,12 @@ std::string Golden::command() const {
   text += " --size " + std::to_string(width) + "x" + std::to_string(height);
   if (view_mode != Golden().view_mode) text += " --view-mode " + view_mode;
   if (hud) text += " --hud";
+  if (samples != 1) text += " --samples " + std::to_string(samples);
+  if (transparent) text += " --transparent";
+  if (!layer.empty()) text += " --layer " + layer;
+  if (speed != 1) text += " --speed " + short_number(speed);
   if (!has_frame) text += " --no-frame";
+  if (to_the_end) text += " --to-the-end";
   if (folder != own_goldens_folder()) text += " --folder " + quoted(folder.string());
   return text + " && " + accept_command();
 }
@@ -156,6 +188,16 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
   golden.hash = value<std::string>(figures, "/hash", file);
   golden.renderer = value<std::string>(figures, "/renderer", file);
   golden.cpu = value<std::string>(figures, "/cpu", file);
+  golden.samples =
+      figures.contains("/samples") ? whole(figures, "/samples", file, 1, kMaxSamples) : 1;
+  golden.transparent = value_or(figures, "/transparent", file, false);
+  golden.layer = value_or<std::string>(figures, "/layer", file, "");
+  golden.speed = figures.contains("/speed") ? number_at(figures, "/speed") : 1;
+  if (!(golden.speed >= kMinSpeed && golden.speed <= kMaxSpeed))
+    throw InputError(file.string() + ": /speed is not a number from 0.001 to 1000");
+  golden.to_the_end = value_or(figures, "/to_the_end", file, false);
+  golden.original = value_or<std::string>(figures, "/original", file, "");
+  golden.rebased = value_or<std::string>(figures, "/rebased", file, "");
   return golden;
 }
 
@@ -175,7 +217,36 @@ void write_golden(const Golden& golden) {
   for (std::size_t i = 0; i < golden.load.set.size(); ++i) {
     figures["/set/" + std::to_string(i)] = golden.load.set[i];
   }
+  // Keys of usual values are left out.
+  if (golden.samples != 1) figures["/samples"] = std::int64_t{golden.samples};
+  if (golden.transparent) figures["/transparent"] = true;
+  if (!golden.layer.empty()) figures["/layer"] = golden.layer;
+  if (golden.speed != 1) figures["/speed"] = golden.speed;
+  if (golden.to_the_end) figures["/to_the_end"] = true;
+  if (!golden.original.empty()) figures["/original"] = golden.original;
+  if (!golden.rebased.empty()) figures["/rebased"] = golden.rebased;
   write_file(golden.file(".json"), format_figures(figures));
+}
+
+Original read_original(const Golden& golden) {
+  const bool is_apart = fs::exists(golden.original_file());
+  const fs::path file = is_apart ? golden.original_file() : golden.picture_file();
+  // A golden that was recorded anew has no hashes until it is accepted.
+  const bool is_known = !golden.hash.empty();
+  const std::string hash = !golden.original.empty() ? golden.original : golden.hash;
+  const std::string remedy =
+      "; restore it from version control, or look at the new picture and "
+      "accept it by --rebase";
+  if (is_known && !golden.original.empty() && !is_apart)
+    return {{}, "the original picture " + golden.original_file().string() + " is missing" + remedy};
+  if (!fs::exists(file)) {
+    if (!is_known) return {};
+    return {{}, "the accepted picture " + file.string() + " is missing" + remedy};
+  }
+  Original original{render::read_png(file), {}};
+  if (is_known && pixel_hash(*original.picture) != hash)
+    return {{}, file.string() + " is not the picture that was accepted" + remedy};
+  return original;
 }
 
 bool GoldenResult::drawing_passed() const {
@@ -199,8 +270,23 @@ std::string GoldenResult::sentence() const {
   return text + (is_same && golden.is_simulated() ? "; simulation same" : "");
 }
 
+std::vector<const GoldenResult*> by_distance_from_original(
+    const std::vector<GoldenResult>& results) {
+  std::vector<const GoldenResult*> order;
+  for (const GoldenResult& result : results) {
+    if (result.share_of_original() > 0) order.push_back(&result);
+  }
+  std::ranges::stable_sort(order, std::greater(), &GoldenResult::share_of_original);
+  return order;
+}
+
 std::string format_results(const std::vector<GoldenResult>& results) {
   Figures figures;
+  const auto farthest = by_distance_from_original(results);
+  if (farthest.empty()) figures["/farthest_from_original"] = EmptyList();
+  for (std::size_t i = 0; i < farthest.size(); ++i) {
+    figures["/farthest_from_original/" + std::to_string(i)] = farthest[i]->golden.name;
+  }
   for (std::size_t i = 0; i < results.size(); ++i) {
     const GoldenResult& result = results[i];
     const std::string at = "/goldens/" + std::to_string(i);
@@ -210,6 +296,10 @@ std::string format_results(const std::vector<GoldenResult>& results) {
     figures[at + "/same_bytes"] = result.difference.same_bytes;
     figures[at + "/flip_mean"] = result.difference.flip_mean;
     figures[at + "/worst_window_pixels"] = std::int64_t{result.difference.worst_window_pixels};
+    figures[at + "/original/flip_mean"] = result.from_original.flip_mean;
+    figures[at + "/original/worst_window_pixels"] =
+        std::int64_t{result.from_original.worst_window_pixels};
+    figures[at + "/original/rebased"] = result.golden.rebased;
     figures[at + "/renderer"] = result.renderer;
     figures[at + "/remade_by"] = result.golden.command();
     for (std::size_t j = 0; j < result.verdicts.size(); ++j) {
@@ -267,6 +357,7 @@ std::string pixel_hash(const render::Image& image) {
   std::uint64_t hash =
       combine(static_cast<std::uint64_t>(image.width), static_cast<std::uint64_t>(image.height));
   for (const std::uint8_t byte : image.rgb) hash = combine(hash, byte);
+  for (const std::uint8_t byte : image.alpha) hash = combine(hash, byte);
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;

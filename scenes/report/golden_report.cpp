@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "scenes/report/golden_page.h"
@@ -37,6 +39,33 @@ std::string figures_table(const GoldenResult& picture) {
   return html_table({"figure", "measured", "at most"}, rows);
 }
 
+/// Returns a table of the images that differ from their originals, the farthest first.
+std::string originals_table(std::span<const GoldenResult> pictures) {
+  std::vector<std::pair<double, const GoldenResult*>> order;
+  for (const GoldenResult& picture : pictures) {
+    if (!picture.from_original.same_size) continue;
+    const double share = picture.from_original.share_of(picture.thresholds);
+    if (share > 0) order.emplace_back(share, &picture);
+  }
+  if (order.empty()) return "<p>Every picture is equal to its original.</p>\n";
+  std::ranges::stable_sort(order, std::greater(), &std::pair<double, const GoldenResult*>::first);
+  std::vector<std::vector<Cell>> rows;
+  for (const auto& [share, picture] : order) {
+    const render::Difference& d = picture->from_original;
+    rows.push_back({{picture->name},
+                    {rounded(100 * share, 2), share > 1},
+                    {rounded(d.flip_mean, 2)},
+                    {std::to_string(d.worst_window_pixels)},
+                    {picture->original.rgb.empty() ? "no" : "yes"}});
+  }
+  return "<h2>Distance from the originals</h2>\n<p>The original is the picture that was accepted "
+         "first, or last with a reason (<code>golden accept --rebase</code>). A picture of more "
+         "than 100 % is not accepted without one.</p>\n" +
+         html_table({"picture", "% of what is allowed", "FLIP, mean", "pixels of a window",
+                     "accepted since"},
+                    rows);
+}
+
 std::string mode_switch(std::size_t number) {
   std::string html = "<p>";
   for (const char* mode : {"side", "slider", "swap"}) {
@@ -58,7 +87,10 @@ std::string section(const GoldenResult& picture, std::size_t number) {
   if (comparable) html += figures_table(picture) + mode_switch(number);
   html += "<div class=\"views\">\n" + figure("reference", "reference", picture.reference);
   if (!picture.difference.same_bytes) html += figure("actual", "drawn now", picture.actual);
-  html += figure("heat", "FLIP error", picture.difference.heat_map) + "</div>\n";
+  html += figure("heat", "FLIP error", picture.difference.heat_map);
+  html += figure("original", "original", picture.original) + "</div>\n";
+  if (!picture.rebased.empty())
+    html += "<p>Reason of the last original: " + escaped(picture.rebased) + "</p>\n";
   if (!picture.runs.empty()) html += html_table({"simulated", "frames"}, picture.runs);
   if (!picture.passed) {
     html += "<p>To accept this picture: <code>" + escaped(picture.accept_command) + "</code></p>\n";
@@ -81,7 +113,7 @@ std::string golden_report(std::span<const GoldenResult> pictures) {
   return html_page({"Sunder: goldens",
                     "<h1>Goldens</h1>\n<p>Point at a picture for the magnifier. Heat: black "
                     "no error, red, yellow, white the most.</p>\n" +
-                        sections + "<div id=\"lens\"></div>\n",
+                        originals_table(pictures) + sections + "<div id=\"lens\"></div>\n",
                     golden_page::golden_report_css, golden_page::golden_report_js});
 }
 

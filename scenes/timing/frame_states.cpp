@@ -8,6 +8,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/trace.h"
+#include "engine/io/state_hash.h"
 #include "engine/io/statistics.h"
 #include "scenes/file/schema.h"
 #include "scenes/make_simulation.h"
@@ -16,7 +17,8 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr std::size_t kDigits = 4;  // hexadecimal digits per frame
+constexpr std::size_t kDigits = 4;  // hexadecimal digits per frame, or per second
+constexpr std::ptrdiff_t kFramesPerSecond = 60;
 // Number of frames to store after the first break, at the run's own preset and at others.
 constexpr int kFramesAfterBreak = 50, kFramesAfterBreakOtherPresets = 8;
 
@@ -34,6 +36,9 @@ std::string digits_of(std::uint64_t hash) {
 
 std::string frames_key(const std::string& name, const std::string& preset) {
   return "frames/" + name + "/" + preset;
+}
+std::string seconds_key(const GuardedRun& run) {
+  return "seconds/" + run.name + "/" + run.load.preset;
 }
 
 /// A stored state hash of `sunder bench` over the first frames of a scene.
@@ -129,6 +134,33 @@ Verdict check_digits(const GuardedRun& run, const std::string& preset, const std
   return verdict;
 }
 
+/// Compares each second of a whole run with the stored digits.
+Verdict check_seconds(const GuardedRun& run, const StateHashes& book, const std::string& file,
+                      std::span<const std::uint64_t> states) {
+  Verdict verdict{run.name, "simulation to its end at " + run.load.preset, Outcome::kFailed, {}};
+  const auto known = book.find(seconds_key(run));
+  if (known == book.end()) {
+    verdict.text = "has no stored states in " + file + "; store them by `sunder golden accept`";
+    return verdict;
+  }
+  const std::string digits = second_digits(states);
+  const auto seconds = [](const std::string& text) {
+    return std::to_string(text.size() / kDigits);
+  };
+  const auto [stored, now] = std::ranges::mismatch(known->second, digits);
+  const auto second = (now - digits.begin()) / static_cast<std::ptrdiff_t>(kDigits);
+  if (stored == known->second.end() && now == digits.end()) {
+    verdict.outcome = Outcome::kPassed;
+    verdict.text = seconds(digits) + " seconds are equal to the stored ones";
+  } else if (stored == known->second.end() || now == digits.end()) {
+    verdict.text = "has " + seconds(digits) + " seconds; " + seconds(known->second) + " are stored";
+  } else {
+    verdict.text = "differs from second " + std::to_string(second) + " on (frame " +
+                   std::to_string(second * kFramesPerSecond) + ")";
+  }
+  return verdict;
+}
+
 Verdict check_state(const GuardedRun& run, const std::string& preset, const StoredState& known,
                     const StateHash& states) {
   const std::string hash = states.hex(static_cast<std::size_t>(known.frames) + 1);
@@ -143,6 +175,16 @@ Verdict check_state(const GuardedRun& run, const std::string& preset, const Stor
 std::string frame_digits(std::span<const std::uint64_t> run) {
   std::string digits;
   for (const std::uint64_t hash : run) digits += digits_of(hash);
+  return digits;
+}
+
+std::string second_digits(std::span<const std::uint64_t> run) {
+  std::string digits;
+  while (!run.empty()) {
+    const auto second = run.first(std::min<std::size_t>(run.size(), kFramesPerSecond));
+    digits += hash_run(second).substr(0, kDigits);
+    run = run.subspan(second.size());
+  }
   return digits;
 }
 
@@ -169,15 +211,19 @@ FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
     const int frames = static_cast<int>(known->second.size() / kDigits);
     const Stopwatch watch;
     FramePtr frame;
+    const bool is_own = preset == run.load.preset;
+    const bool is_whole = is_own && run.to_the_end;
+    const int last = std::max(frames - 1, all ? all->frames : 0);
     const StateHash states =
-        hash_frames(run, preset, std::max(frames - 1, all ? all->frames : 0), frame);
-    if (preset == run.load.preset) {
+        hash_frames(run, preset, is_whole ? std::numeric_limits<int>::max() : last, frame);
+    if (is_own) {
       comparison.frame = frame;
       comparison.is_same =
           run.frame < first_difference(known->second, states.per_frame()).value_or(frames);
     }
     verdicts.push_back(check_digits(run, preset, known->second, states.per_frame()));
-    verdicts.back().seconds = 1e-3 * watch.ms();  // includes the time for the state hash
+    verdicts.back().seconds = 1e-3 * watch.ms();  // includes the time of the next two
+    if (is_whole) verdicts.push_back(check_seconds(run, book, file, states.per_frame()));
     if (all) verdicts.push_back(check_state(run, preset, *all, states));
   }
   if (verdicts.empty()) {
@@ -191,6 +237,13 @@ FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
 void accept_frames(const GuardedRun& run, StateHashes& book) {
   for (const std::string& preset : preset_names()) {
     book[frames_key(run.name, preset)] = record_digits(run, preset);
+  }
+  if (run.to_the_end) {
+    FramePtr frame;
+    book[seconds_key(run)] = second_digits(
+        hash_frames(run, run.load.preset, std::numeric_limits<int>::max(), frame).per_frame());
+  } else {
+    book.erase(seconds_key(run));
   }
 }
 

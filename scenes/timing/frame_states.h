@@ -1,7 +1,8 @@
 // Comparison of every frame of a run with stored hashes, to find the first frame that differs.
 // Stored hashes (hash_book.h) have the key frames/NAME/PRESET and the first four hexadecimal
 // digits of the state hash of each frame, joined. Few digits suffice, because a run that has
-// diverged stays different.
+// diverged stays different. Of runs that are guarded to their end, seconds/NAME/PRESET has four
+// digits for each second.
 #pragma once
 
 #include <optional>
@@ -18,6 +19,9 @@ namespace sunder::scenes {
 
 /// Returns the stored digits for the state hashes of a run's frames.
 std::string frame_digits(std::span<const std::uint64_t> run);
+/// Returns the stored digits of a whole run: those of the hash over each 60 frames, the last ones
+/// included.
+std::string second_digits(std::span<const std::uint64_t> run);
 /// Returns the index of the first stored frame that the run lacks or that differs; nothing if all
 /// are equal.
 std::optional<int> first_difference(const std::string& known, std::span<const std::uint64_t> run);
@@ -28,7 +32,8 @@ struct GuardedRun {
   std::string scene;  ///< Scene file, or name of a scene.
   LoadOptions load;
   int frame = 0;  ///< Last frame to store if nothing breaks, unless the script begins later.
-  bool is_drawn = false;  ///< True if states are stored up to `frame` at the preset of `load`.
+  bool is_drawn = false;    ///< True if states are stored up to `frame` at the preset of `load`.
+  bool to_the_end = false;  ///< True if each second of the run is stored at the preset of `load`.
 };
 
 /// Results of compare_frames().
@@ -40,15 +45,16 @@ struct FrameComparison {
 };
 
 /// Simulates the scene at every preset with stored hashes and returns a verdict for each:
-/// "simulation at realtime" and so on. Without any stored hashes the only verdict is a failure.
-/// `with_bench_state`: also compares the hash that `sunder bench` stores, unless --set changed the
-/// scene. `file` is the name of the file of hashes in messages. Throws InputError.
+/// "simulation at realtime" and so on, and one for GuardedRun::to_the_end. Without any stored
+/// hashes the only verdict is a failure. `with_bench_state`: also compares the hash that `sunder
+/// bench` stores, unless --set changed the scene. `file` is the name of the file of hashes in
+/// messages. Throws InputError.
 FrameComparison compare_frames(const GuardedRun& run, const StateHashes& book,
                                const std::string& file, bool with_bench_state);
 
 /// Stores the hashes of the run at every preset, up to 50 frames (at the run's own preset) or 8
 /// frames (at others) after the first break that is not before the script's first action, and up to
-/// the frame that is drawn. Throws InputError.
+/// the frame that is drawn; and those of each second, if they are to be stored. Throws InputError.
 void accept_frames(const GuardedRun& run, StateHashes& book);
 
 }  // namespace sunder::scenes

@@ -11,7 +11,8 @@ namespace sunder::scenes {
 namespace {
 
 bool is_hash(const std::string& what, const std::string& text) {
-  const bool whole = what.starts_with("frames/") ? text.size() % 4 == 0 : text.size() == 16;
+  const bool has_shortened = what.starts_with("frames/") || what.starts_with("seconds/");
+  const bool whole = has_shortened ? text.size() % 4 == 0 : text.size() == 16;
   return whole && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
@@ -29,8 +30,8 @@ StateHashes parse_hashes(const std::string& text, const std::string& file) {
     const std::string at = file + ":" + std::to_string(number) + ": ";
     if (!(words >> hash) || !is_hash(what, hash) || words >> more) {
       throw InputError(at + "expected KEY and 16 hexadecimal digits (0-9, a-f), as in " +
-                       "state/house/realtime/200 0123456789abcdef, or 4 digits per frame if KEY "
-                       "begins with frames/");
+                       "state/house/realtime/200 0123456789abcdef, or 4 digits per frame or second "
+                       "if KEY begins with frames/ or seconds/");
     }
     if (!book.emplace(what, hash).second) {
       throw InputError(at + what + " is a duplicate key; remove the wrong line");

@@ -3,7 +3,8 @@
 //
 // A line is KEY HASH. The key is a path with everything that decides the hash:
 // state/SCENE/PRESET/FRAMES has the state hash over the first frames of an unchanged scene;
-// frames/GOLDEN/PRESET has shortened hashes of frames until after the first break (frame_states.h).
+// frames/GOLDEN/PRESET has shortened hashes of frames until after the first break, and
+// seconds/GOLDEN/PRESET those of the seconds of a whole run (frame_states.h).
 #pragma once
 
 #include <map>
