@@ -4,6 +4,8 @@
 // the frame without geometry, and its picture is drawn from the run. A test fails if the drawing of
 // the frame, the camera and colours of its scene, or the states of the run change.
 //
+// NAME.original.png is the original picture of a golden that has crept away from it.
+//
 // Read first: golden_test(). Only `accept` changes the stored pictures and states.
 #include <algorithm>
 #include <cctype>

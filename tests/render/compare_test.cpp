@@ -77,6 +77,21 @@ TEST(Compare, AFaultOfSixBySixPixelsFails) {
   EXPECT_FALSE(difference.passes({}));
 }
 
+TEST(Compare, OtherAlphaFailsAndColorsThatNobodySeesDoNot) {
+  Image clear = reference(), solid = reference(), hidden = reference();
+  const std::size_t pixels = clear.rgb.size() / 3;
+  clear.alpha.assign(pixels, 128);
+  solid.alpha.assign(pixels, 255);
+  hidden.alpha.assign(pixels, 0);
+  EXPECT_FALSE(compare(clear, solid).passes({}));
+  EXPECT_FALSE(compare(clear, reference()).passes({})) << "without alpha all is covered";
+  EXPECT_FALSE(compare(reference(), clear).passes({}));
+  EXPECT_EQ(compare(solid, reference()).share_of({}), 0) << "before any background";
+  Image other = hidden;
+  for (std::uint8_t& level : other.rgb) level = static_cast<std::uint8_t>(255 - level);
+  EXPECT_TRUE(compare(hidden, other).passes({}));
+}
+
 TEST(Compare, TwoPercentMoreBrightnessFails) {
   const Image image = changed([](std::size_t, int v) { return (v * 102 + 50) / 100; });
   const Difference difference = compare(reference(), image);

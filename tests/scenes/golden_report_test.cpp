@@ -1,6 +1,7 @@
 // Tests of the report page of golden tests.
 #include "scenes/report/golden_report.h"
 
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -50,6 +51,27 @@ TEST(GoldenReport, ThePageEmbedsItsPicturesAndLoadsNothingElse) {
                            "value=\"slider\"", "setInterval("}) {
     EXPECT_EQ(count(page, part) >= 1, true) << part;
   }
+}
+
+TEST(GoldenReport, PicturesAreListedByTheirDistanceFromTheOriginals) {
+  std::vector<GoldenResult> pictures = {picture("same", 90, 90), picture("near", 90, 90),
+                                        picture("far", 90, 90)};
+  for (GoldenResult& p : pictures) p.from_original = render::compare(p.reference, p.actual);
+  EXPECT_NE(golden_report(pictures).find("Every picture is equal to its original"),
+            std::string::npos);
+  pictures[1].original = flat(91);
+  pictures[2].original = flat(93);
+  pictures[2].rebased = "a <new> sky";
+  for (GoldenResult& p : std::span(pictures).subspan(1))
+    p.from_original = render::compare(p.original, p.actual);
+  const std::string page = golden_report(pictures);
+  const std::size_t table = page.find("<h2>Distance from the originals"),
+                    end = page.find("<section", table);
+  const std::string rows = page.substr(table, end - table);
+  EXPECT_LT(rows.find("far"), rows.find("near"));
+  EXPECT_EQ(rows.find("same"), std::string::npos);
+  EXPECT_NE(page.find("a &lt;new> sky"), std::string::npos);
+  EXPECT_EQ(tests::markup_mistake(page), "");
 }
 
 TEST(GoldenReport, AMissingBaselineIsReplacedByTheNewPicture) {

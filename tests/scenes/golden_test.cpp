@@ -27,11 +27,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 const fs::path kGoldens = fs::path(SUNDER_ROOT) / "tests/golden";
 
-/// Returns the files of goldens with this extension, sorted.
+/// Returns the files of goldens with this extension, sorted, without originals.
 std::vector<fs::path> goldens(const std::string& extension) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(kGoldens)) {
-    if (entry.path().extension() == extension) files.push_back(entry.path());
+    const bool is_original = entry.path().string().ends_with(".original.png");
+    if (entry.path().extension() == extension && !is_original) files.push_back(entry.path());
   }
   std::ranges::sort(files);
   return files;
@@ -84,15 +85,25 @@ TEST(Golden, EveryTextureAndEveryPassIsInAGolden) {
   }
   EXPECT_GT(debris, 1000u);
   EXPECT_GT(dust, 100u);
-  bool has_hud = false;
-  std::set<std::string> view_modes;
+  std::set<std::string> view_modes, layers, others;
+  int whole_runs = 0;
   for (const fs::path& file : goldens(".json")) {
     const Json recipe = Json::parse(scenes::read_text(file));
-    has_hud = has_hud || recipe["hud"].get<bool>();
     view_modes.insert(recipe["view_mode"]);
+    layers.insert(recipe.value("layer", ""));
+    if (recipe["hud"].get<bool>()) others.insert("hud");
+    if (recipe.value("transparent", false)) others.insert("transparent");
+    if (recipe.value("speed", 1.0) != 1) others.insert("speed");
+    if (recipe.value("samples", 1) > 1 && recipe["scene"] == "column_row.frame")
+      others.insert("samples of a frame with dust");
+    if (recipe.value("set", Json()).dump().find("view.shutter") != std::string::npos)
+      others.insert("shutter");
+    whole_runs += recipe.value("to_the_end", false);
   }
-  EXPECT_TRUE(has_hud);
   EXPECT_EQ(view_modes.size(), 10u);
+  EXPECT_EQ(layers, (std::set<std::string>{"", "depth", "depth_m", "normals", "ids"}));
+  EXPECT_EQ(others.size(), 5u);
+  EXPECT_GE(whole_runs, 6);
 }
 
 TEST(Golden, StoredFramesAreSmall) {
@@ -106,15 +117,18 @@ TEST(Golden, StoredFramesAreSmall) {
 TEST(Golden, HashesAreOfEveryPresetOfEverySimulatedGoldenAndOfNoOther) {
   std::set<std::string> expected, found;
   for (const fs::path& file : goldens(".json")) {
-    const std::string scene = Json::parse(scenes::read_text(file))["scene"];
-    if (scene.ends_with(".frame")) continue;
+    const Json recipe = Json::parse(scenes::read_text(file));
+    if (recipe["scene"].get<std::string>().ends_with(".frame")) continue;
+    if (recipe.value("to_the_end", false))
+      expected.insert("seconds/" + file.stem().string() + "/realtime");
     for (const char* preset : {"draft", "realtime", "accurate", "reference"}) {
       expected.insert("frames/" + file.stem().string() + "/" + preset);
     }
   }
   std::ifstream hashes(kGoldens / "hashes.txt");
   for (std::string line; std::getline(hashes, line);) {
-    if (line.starts_with("frames/")) found.insert(line.substr(0, line.find(' ')));
+    if (line.starts_with("frames/") || line.starts_with("seconds/"))
+      found.insert(line.substr(0, line.find(' ')));
   }
   EXPECT_EQ(found, expected);
 }
@@ -134,7 +148,21 @@ TEST(Golden, TheReportedCommandsMakeTheSameGoldenAgain) {
       sunder("golden record bare stack 3 --no-frame --size 64x48 --folder " + first.path().string())
           .exit_code,
       0);
-  ASSERT_EQ(sunder("golden accept box above bare --folder " + first.path().string()).exit_code, 0);
+  ASSERT_EQ(sunder("golden record film stack 5 --speed 0.3 --samples 2 --set view.shutter=0.5 "
+                   "--no-frame --to-the-end --size 64x48 --folder " +
+                   first.path().string())
+                .exit_code,
+            0);
+  ASSERT_EQ(sunder("golden record clear " + first / "box.frame" +
+                   " --transparent --samples 3 --size 64x48 --folder " + first.path().string())
+                .exit_code,
+            0);
+  ASSERT_EQ(sunder("golden record layer " + first / "box.frame" +
+                   " --layer normals --size 64x48 --folder " + first.path().string())
+                .exit_code,
+            0);
+  const std::string names = "box above bare film clear layer";
+  ASSERT_EQ(sunder("golden accept " + names + " --folder " + first.path().string()).exit_code, 0);
   const Outcome outcome = sunder("golden test --json - --folder " + first.path().string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json results = Json::parse(outcome.out);
@@ -167,7 +195,13 @@ TEST(Golden, AMissingBaselineFailsUntilItIsAccepted) {
   const Outcome missing = sunder("golden test glass" + at);
   EXPECT_EQ(missing.exit_code, 1);
   EXPECT_NE(missing.out.find("no baseline"), std::string::npos) << missing.out;
-  EXPECT_EQ(sunder("golden accept glass --folder " + folder.path().string()).exit_code, 0);
+  const std::string accept = "golden accept glass --folder " + folder.path().string();
+  const Outcome refused = sunder(accept);
+  EXPECT_EQ(refused.exit_code, 1) << "a deleted picture is no way around its original";
+  EXPECT_NE(refused.out.find("glass.png is missing"), std::string::npos) << refused.out;
+  EXPECT_FALSE(fs::exists(folder / "glass.png"));
+  EXPECT_EQ(sunder(accept + " --rebase ' '").exit_code, 2) << "no reason";
+  EXPECT_EQ(sunder(accept + " --rebase 'the picture was lost'").exit_code, 0);
   EXPECT_EQ(sunder("golden test glass" + at).exit_code, 0);
   EXPECT_EQ(sunder("golden report glass" + at).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "out/report.html"));
@@ -226,7 +260,10 @@ TEST(Golden, AcceptingAnotherCameraRecordsTheFrameAgain) {
             std::string::npos)
       << failed.out;
   EXPECT_NE(failed.out.find("view.fov_deg"), std::string::npos) << failed.out;
-  const Outcome accepted = sunder("golden accept stack" + at);
+  const std::string before = scenes::read_text(folder / "stack.frame");
+  EXPECT_EQ(sunder("golden accept stack" + at).exit_code, 1) << "another camera is another picture";
+  EXPECT_EQ(scenes::read_text(folder / "stack.frame"), before) << "nothing is stored";
+  const Outcome accepted = sunder("golden accept stack --rebase nearer" + at);
   EXPECT_NE(accepted.out.find("new frame, simulation unchanged"), std::string::npos)
       << accepted.out;
   EXPECT_EQ(read_frame(folder / "stack.frame")->view.fov_rad, 30 * std::numbers::pi / 180);
@@ -245,10 +282,125 @@ TEST(Golden, AcceptingWithoutAFrameAcceptsPictureViewAndSimulation) {
   Json recipe = Json::parse(scenes::read_text(folder / "box.json"));
   recipe["set"] = {"scene.gravity=[0,9.81,0]", "view.fov_deg=30"};
   std::ofstream(folder / "box.json") << recipe;
-  const Outcome accepted = sunder("golden accept box" + at);
+  const Outcome accepted = sunder("golden accept box --rebase 'it rises'" + at);
   EXPECT_NE(accepted.out.find("\naccepted box: drawing "), std::string::npos) << accepted.out;
   EXPECT_NE(accepted.out.find(", new view, new simulation"), std::string::npos) << accepted.out;
   EXPECT_FALSE(fs::exists(folder / "box.frame"));
+  EXPECT_EQ(sunder("golden test" + at).exit_code, 0);
+}
+
+// Ten changes of 0.05 % in brightness, each of which is within the thresholds of a comparison.
+TEST(Golden, TinyChangesAreAcceptedUntilTheirSumIsTooFarFromTheOriginal) {
+  const Folder folder;
+  const std::string at = " --folder " + folder.path().string();
+  ASSERT_EQ(sunder("golden record box stack 3 --size 160x90" + at).exit_code, 0);
+  ASSERT_EQ(sunder("golden accept box" + at).exit_code, 0);
+  const std::string picture = folder / "box.png", original = folder / "box.original.png";
+  const render::Image first = render::read_png(picture);
+  const auto set_exposure = [&](int step) {
+    Json recipe = Json::parse(scenes::read_text(folder / "box.json"));
+    recipe["set"] = {"view.exposure=" + std::to_string(1 + 0.0005 * step)};
+    std::ofstream(folder / "box.json") << recipe;
+  };
+  int step = 1;
+  Outcome outcome;
+  for (; step <= 10; ++step) {
+    const render::Image last = render::read_png(picture);
+    set_exposure(step);
+    outcome = sunder("golden accept box" + at);
+    const render::Image now = render::read_png(picture);
+    EXPECT_TRUE(render::compare(first, now).passes({})) << outcome.out;
+    EXPECT_TRUE(render::compare(last, now).passes({}));
+    if (outcome.exit_code != 0) {
+      EXPECT_EQ(now, last) << "a refused picture is not stored";
+      break;
+    }
+    EXPECT_NE(outcome.out.find(" from the original FLIP mean "), std::string::npos) << outcome.out;
+    EXPECT_EQ(render::read_png(original), first);
+  }
+  EXPECT_GT(step, 2) << "the first changes are small";
+  ASSERT_LE(step, 10) << "the sum of ten is not";
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.out.rfind("refused box: the picture is too far from the original", 0), 0u)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("accept box --rebase"), std::string::npos) << outcome.out;
+
+  set_exposure(step - 1);
+  const std::string out = " --out " + folder / "out";
+  const Json crept = Json::parse(sunder("golden test --json -" + at + out).out);
+  EXPECT_EQ(crept["farthest_from_original"], Json({"box"}));
+  EXPECT_GT(crept["goldens"][0]["original"]["flip_mean"], 0.0);
+  EXPECT_EQ(crept["goldens"][0]["same_bytes"], true);
+  EXPECT_EQ(sunder("golden report" + at + out).exit_code, 0);
+  const std::string page = scenes::read_text(folder / "out/report.html");
+  EXPECT_NE(page.find("Distance from the originals"), std::string::npos);
+  EXPECT_EQ(markup_mistake(page), "");
+
+  set_exposure(step);
+  EXPECT_EQ(sunder("golden accept box --rebase 'a brighter sky'" + at).exit_code, 0);
+  EXPECT_FALSE(render::compare(first, render::read_png(picture)).passes({}))
+      << "what was refused is over the thresholds";
+  EXPECT_FALSE(fs::exists(original));
+  const Json rebased = Json::parse(sunder("golden test --json -" + at + out).out);
+  EXPECT_EQ(rebased["farthest_from_original"], Json::array());
+  EXPECT_EQ(rebased["goldens"][0]["original"]["rebased"], "a brighter sky");
+}
+
+TEST(Golden, APictureThatWasReplacedByHandIsNotTakenForTheAcceptedOne) {
+  const Folder folder;
+  const std::string at = " --folder " + folder.path().string();
+  ASSERT_EQ(sunder("golden record box stack 3 --size 160x90" + at).exit_code, 0);
+  ASSERT_EQ(sunder("golden accept box" + at).exit_code, 0);
+  render::Image image = render::read_png(folder / "box.png");
+  image.rgb[0] ^= 1;
+  render::write_png(folder / "box.png", image);
+  const Outcome outcome = sunder("golden test --out " + folder / "out" + at);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("box.png is not the picture that was accepted"), std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(sunder("golden accept box" + at).exit_code, 1);
+}
+
+TEST(Golden, ARecordedFilmIsThePictureThatRenderDraws) {
+  const Folder folder;
+  const std::string looks = " --samples 3 --set view.shutter=1 --speed 0.7 --size 96x54";
+  ASSERT_EQ(sunder("golden record film glass 25 --no-frame" + looks + " --folder " +
+                   folder.path().string())
+                .exit_code,
+            0);
+  ASSERT_EQ(sunder("golden accept film --folder " + folder.path().string()).exit_code, 0);
+  ASSERT_EQ(sunder("render glass --frames 15:19" + looks + " -o " + folder / "pictures/").exit_code,
+            0);
+  EXPECT_EQ(render::read_png(folder / "film.png"),
+            render::read_png(folder / "pictures/frame_00025.png"));
+}
+
+TEST(Golden, AStateThatDiffersInALateSecondIsFound) {
+  const Folder folder;
+  const std::string at = " --folder " + folder.path().string();
+  ASSERT_EQ(sunder("golden record box stack 3 --to-the-end --size 64x48" + at).exit_code, 0);
+  ASSERT_EQ(sunder("golden accept box" + at).exit_code, 0);
+  const std::string hashes = folder / "hashes.txt";
+  std::string text = scenes::read_text(hashes);
+  const std::size_t line = text.find("seconds/box/realtime");
+  ASSERT_NE(line, std::string::npos) << text;
+  // Ten seconds and one frame are stored; the tenth of them is changed.
+  char& digit = text[text.find('\n', line) - 5];
+  digit = digit == '0' ? '1' : '0';
+  std::ofstream(hashes) << text;
+  const Outcome differs = sunder("golden test" + at);
+  EXPECT_EQ(differs.exit_code, 1);
+  EXPECT_NE(differs.out.find("simulation to its end at realtime differs from second 9 on (frame "
+                             "540)"),
+            std::string::npos)
+      << differs.out;
+  text.erase(line, text.find('\n', line) + 1 - line);
+  std::ofstream(hashes) << text;
+  const Outcome missing = sunder("golden test" + at);
+  EXPECT_NE(missing.out.find("simulation to its end at realtime has no stored states in "),
+            std::string::npos)
+      << missing.out;
+  EXPECT_EQ(sunder("golden accept box" + at).exit_code, 0);
   EXPECT_EQ(sunder("golden test" + at).exit_code, 0);
 }
 
@@ -321,14 +473,25 @@ TEST(Golden, AFileWithAWrongSizeOrUnclosedBracketsIsRefused) {
   copy_golden("glass", folder);
   Json recipe = Json::parse(scenes::read_text(folder / "glass.json"));
   const std::string lists(1 << 20, '[');
-  recipe["width"] = -5;
-  const std::string negative = recipe.dump();
-  recipe["width"] = 2000000000;
-  for (const std::string& text : {negative, recipe.dump(), lists}) {
+  const auto changed = [&](const char* key, const Json& value) {
+    Json other = recipe;
+    other[key] = value;
+    return other.dump();
+  };
+  for (const auto& [text, place] :
+       std::vector<std::pair<std::string, std::string>>{{changed("width", -5), "/width"},
+                                                        {changed("width", 2000000000), "/width"},
+                                                        {changed("samples", 0), "/samples"},
+                                                        {changed("speed", -1), "/speed"},
+                                                        {changed("speed", "fast"), "/speed"},
+                                                        {changed("layer", 3), "/layer"},
+                                                        {changed("layer", "fog"), "fog"},
+                                                        {changed("to_the_end", 1), "/to_the_end"},
+                                                        {lists, ""}}) {
     std::ofstream(folder / "glass.json") << text;
     const Outcome outcome = sunder("golden test --folder " + folder.path().string());
     EXPECT_EQ(outcome.exit_code, 2) << text.substr(0, 40);
-    EXPECT_EQ(outcome.err.find("/width") != std::string::npos, text != lists) << outcome.err;
+    EXPECT_NE(outcome.err.find(place), std::string::npos) << outcome.err;
   }
 }
 
@@ -338,7 +501,10 @@ TEST(Golden, RecordAcceptsAFrameOfASceneOrAStoredFrameOnly) {
   const std::string at = " --folder " + folder.path().string();
   for (const std::string& wrong : std::vector<std::string>{
            "x stack", "x " + folder / "stack.frame" + " 3", "x stack 3 --size 5", "x stack 100000",
-           "x nowhere.frame", "x stack 3 --no-frame --view-mode contacts",
+           "x nowhere.frame", "x stack 3 --speed 0.5", "x stack 3 --layer fog",
+           "x stack 3 --layer ids --hud", "x stack 3 --samples 2 --set view.shutter=1",
+           "x " + folder / "stack.frame" + " --to-the-end", "x stack 599 --speed 2 --no-frame",
+           "x stack 3 --no-frame --view-mode contacts",
            "x " + folder / "stack.frame" + " --no-frame", "'x y' stack 3", "../x stack 3",
            "x " + folder / "stack.frame" + " --set scene.gravity=[0,0,0]"}) {
     const Outcome outcome = sunder("golden record " + wrong + at);
