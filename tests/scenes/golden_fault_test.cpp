@@ -39,10 +39,12 @@ class Copy {
     }
     std::ifstream hashes(from / "hashes.txt");
     std::ofstream copy(folder / "hashes.txt", std::ios::app);
-    const std::string of_golden = "frames/" + golden + "/";
     for (std::string line; std::getline(hashes, line);) {
-      if (!line.starts_with(of_golden)) continue;
-      copy << "frames/" << name << "/" << line.substr(of_golden.size()) << "\n";
+      for (const std::string kind : {"frames/", "seconds/"}) {
+        const std::string of_golden = kind + golden + "/";
+        if (line.starts_with(of_golden))
+          copy << kind << name << "/" << line.substr(of_golden.size()) << "\n";
+      }
     }
   }
 
@@ -296,7 +298,8 @@ TEST(GoldenFaults, OfTwoFaultsBothAreNamed) {
   both.change_picture(brighter);
   both.change_scene(of_shots("glass", "speed_m_s=1"));
   const auto failures = failures_in(folder);
-  EXPECT_EQ(failures.at("both").size(), 5u) << "the drawing, and the simulation at each preset";
+  EXPECT_EQ(failures.at("both").size(), 6u)
+      << "the drawing, the simulation at each preset, and that to its end";
 }
 
 }  // namespace
