@@ -9,7 +9,8 @@ Commands of the code blocks of README.md, docs/*.md and bench/README.md are run 
   simulate         runs at most 3 frames;
   export, view     write 3 frames of a scene; view is left out where three.js is not installed;
   render           draws 2 frames, or a sheet of 2, of 64x48 pixels unless the command has a size;
-  bench            runs 2 frames of each scene once, without warm-up, and accepts states of one scene;
+  bench            runs 2 frames of each scene once, without warm-up, and of one scene nine times if
+                   times are judged; accepts states of one scene;
   trade            lists its runs (--list);
   golden           runs on a folder with one golden.
 The lines of docs/cli.md that show the syntax of a command are run as SYNTAX has them. Other commands
@@ -75,6 +76,8 @@ SYNTAX = {
 JSON_COMMANDS = (
     "list", "check stack", "check wrong.toml", "simulate glass --frames 80",
     "bench glass --frames 60 --repeats 1 --warm-up 0 --features --set scene.seed=2",
+    "bench stack --frames 2 --repeats 9 --warm-up 0 --draw 1 --against build/sunder",
+    "simulate stack --frames 2 --without sleeping",
     "trade stack --frames 2 --seeds 1 -o out/trade",
     "fracture tetrahedron.obj --pattern voronoi:8", "vacd tetrahedron.obj --nodes 2",
     "hull box:1,1,1 --vertices 8", "render stack -o x.png --frames 0 --size 64x48",
@@ -278,7 +281,10 @@ def shorten(arguments):
     if command == "bench":
         if "--accept" in arguments:  # refuses a part of the run that states are stored of
             return [*arguments, "glass"]
-        arguments = add(add(arguments, "--repeats", "1"), "--warm-up", "0")
+        repeats = "1"
+        if "--fail-slower" in arguments:  # refuses fewer repeats than can tell anything
+            arguments, repeats = [*arguments, "stack"], "9"
+        arguments = add(add(arguments, "--repeats", repeats), "--warm-up", "0")
         return with_value(arguments, "--frames", "2")
     if command == "trade":
         return add(arguments, "--list")
@@ -303,6 +309,7 @@ def make_folder(root, folder, program):
     program.run(shorten(["simulate", "house", "--take", "house.take"]))
     program.run(shorten(["export", "house", "-o", "house.glb"]))
     program.run(shorten(["bench", "--json", "old.json"]))
+    program.run(shorten(["bench", "--json", "new.json"]))
 
 
 def check_command(root, program, line):

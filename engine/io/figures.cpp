@@ -51,6 +51,23 @@ std::string format_figures(const Figures& figures) {
   return document.dump(2, ' ', false, kReplace) + "\n";
 }
 
+std::string add_figures(const std::string& document, const Figures& figures) {
+  using Json = nlohmann::ordered_json;
+  Json json = Json::parse(document);
+  for (const auto& [place, figure] : figures) {
+    Json& at = json[Json::json_pointer(place)];
+    std::visit(
+        [&](const auto& value) {
+          if constexpr (std::is_same_v<decltype(value), const EmptyList&>)
+            at = Json::array();
+          else
+            at = value;
+        },
+        figure);
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 double number_at(const Figures& figures, const std::string& place) {
   const auto found = figures.find(place);
   if (found == figures.end()) return 0;

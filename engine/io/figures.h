@@ -23,5 +23,7 @@ double number_at(const Figures& figures, const std::string& place);
 std::string text_at(const Figures& figures, const std::string& place);
 /// Returns the nested document, indented, with a final newline.
 std::string format_figures(const Figures& figures);
+/// Returns a JSON document of this program with `figures` added to it.
+std::string add_figures(const std::string& document, const Figures& figures);
 
 }  // namespace sunder

@@ -6,9 +6,10 @@
 #
 # Environment, each with a default:
 #   SCENES   scenes to time and to measure        GOLDENS  goldens to compare; empty: all
-#   SLOWER   allowed slowdown of a stage           SEEDS    runs of each scene at each setting
+#   SLOWER   allowed slowdown (--fail-slower)      SEEDS    runs of each scene at each setting
 #   FRAMES   frames of each run; empty: all        REPEATS  timed runs of each scene
 #   OUT      folder of the results                 NEW, OLD programs, if they are built already
+#   DRAW     time every so many pictures, too; empty: none
 #
 # Writes to OUT: bench.html, golden/report.html and trade/trade.html to look at; bench.xml,
 # golden.xml and trade.xml, JUnit for the build server. All checks run, also after one that fails;
@@ -20,10 +21,12 @@ read -ra scenes <<<"${SCENES:-house brick_wall glass}"
 read -ra goldens <<<"${GOLDENS:-}"
 slower=${SLOWER:-5%}
 seeds=${SEEDS:-2}
-repeats=${REPEATS:-6}
+repeats=${REPEATS:-15}
 out=${OUT:-out/ci}
 frames=()
 if [ -n "${FRAMES:-}" ]; then frames=(--frames "$FRAMES"); fi
+draw=()
+if [ -n "${DRAW:-}" ]; then draw=(--draw "$DRAW"); fi
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -74,8 +77,8 @@ write_junit() {
 rm -rf "$out"
 mkdir -p "$out"
 "$new" doctor
-check bench "$new" bench "${scenes[@]}" "${frames[@]}" --repeats "$repeats" --against "$old" \
-  --fail-slower "$slower" --junit "$out/bench.xml" --page "$out/bench.html" --json "$out/bench.json"
+check bench "$new" bench "${scenes[@]}" "${frames[@]}" "${draw[@]}" --repeats "$repeats" \
+  --against "$old" --fail-slower "$slower" --junit "$out/bench.xml" --page "$out/bench.html" --json "$out/bench.json"
 check golden "$new" golden report "${goldens[@]}" --junit "$out/golden.xml" --out "$out/golden"
 check trade "$new" trade "${scenes[@]}" "${frames[@]}" --seeds "$seeds" -o "$out/trade"
 write_junit trade

@@ -1,8 +1,8 @@
 // sunder bench: repeatable frame timing. The state hash of every run must match, as timings of
 // different simulations cannot be compared. bench/README.md explains the reports.
 //
-// Read first: bench(), then measure(). Every run is a process of its own and returns an object of
-// figures, from which all reports are made.
+// Read first: bench(), then measure(). Every run is a process of its own, `sunder simulate`, and
+// returns an object of figures, from which all reports are made.
 #include <sched.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -29,6 +29,10 @@
 #include "scenes/file/text_file.h"
 #include "scenes/timing/compare.h"
 #include "scenes/timing/hash_book.h"
+#include "scenes/timing/judge.h"
+#include "scenes/timing/machine.h"
+#include "scenes/timing/pairs.h"
+#include "scenes/timing/stalls.h"
 #include "scenes/timing/states.h"
 #include "scenes/timing/timing.h"
 #include "scenes/timing/timing_report.h"
@@ -39,75 +43,88 @@ namespace {
 using scenes::TimedRun;
 using scenes::Verdict;
 
+constexpr int kRepeats = 5;  // unless the user gives a number, or another program
+constexpr const char* kThisProgram = "/proc/self/exe";
+
 /// A scene to time, maybe without a feature or by another program, and the figures of its repeats.
 struct Timed {
   TimedRun run;
-  std::string program;  ///< Path of the other program; empty: this one.
-  /// Figures as JSON text, which is parsed after all runs, as these are forks of this process.
-  std::vector<std::string> repeats = {};
+  bool is_other = false;  ///< Timed by the other program.
+  std::vector<Figures> repeats = {};
 };
+
+int repeats_of(const BenchOptions& options) {
+  if (options.repeats > 0) return options.repeats;
+  return options.against.empty() ? kRepeats : scenes::kJudgedRepeats;
+}
+
+/// Returns true if the runs of both programs are timed at once on one processor.
+bool is_at_once(const BenchOptions& options) {
+  return !options.against.empty() && options.threads == 1;
+}
 
 /// Returns the runs of a turn, in order. Loads every scene, to find errors before anything runs.
 std::vector<Timed> timed_runs(const BenchOptions& options) {
   std::vector<Timed> all;
   std::set<std::string> names;
   for (const std::string& asked : options.scenes) {
-    TimedRun run{asked, options.load, options.frames, ""};
+    TimedRun run{asked, options.load, options.frames, "", options.draw};
     const Scene scene = scenes::load_scene(run);
     run.frames = std::min(run.frames, scenes::last_frame(scene));
     if (!names.insert(scene.name).second) {
       throw InputError(asked + ": duplicate scene " + scene.name + "; time it in a separate run");
     }
-    all.push_back({run, ""});
-    if (!options.against.empty()) all.push_back({run, options.against});
+    all.push_back({run});
+    if (!options.against.empty()) all.push_back({run, true});
     if (!options.features) continue;
     for (const scenes::Feature& feature : scenes::features()) {
       if (!feature.turn_off || feature.state(scene) != "on") continue;
-      all.push_back({run, ""});
+      all.push_back({run});
       all.back().run.without = feature.name;
     }
   }
   return all;
 }
 
-std::string title_of(const Timed& timed) {
-  if (!timed.program.empty()) return timed.run.scene + " by " + timed.program;
+std::string title_of(const BenchOptions& options, const Timed& timed) {
+  if (timed.is_other) return timed.run.scene + " by " + options.against;
   return timed.run.without.empty() ? timed.run.scene
                                    : timed.run.scene + " without " + timed.run.without;
 }
 
-/// Carries out a run in this process and writes its figures to the file. Returns an exit code.
-int run_here(const BenchOptions& options, const Timed& timed, bool warn, std::FILE* file) {
-  try {
-    options.apply();
-    const std::string text = format_figures(scenes::time_run(timed.run, warn));
-    return std::fputs(text.c_str(), file) >= 0 && std::fflush(file) == 0 ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", title_of(timed).c_str(), error.what());
-    return 1;
-  }
-}
-
-/// Replaces this process by the other program, with the file as output. Returns 1 if that fails.
-int exec_program(const BenchOptions& options, const Timed& timed, std::FILE* file) {
-  std::vector<std::string> words = {timed.program,   "simulate",
-                                    timed.run.scene, "--quiet",
-                                    "--json",        "-",
-                                    "--preset",      timed.run.load.preset,
-                                    "--frames",      std::to_string(timed.run.frames),
-                                    "--threads",     std::to_string(options.threads)};
-  for (const std::string& assignment : timed.run.load.set) {
+/// Replaces this process by `sunder simulate`, of this program or of the other, which are called in
+/// the same way, so that nothing but the programs differs. Returns 1 if that fails.
+int exec_program(const BenchOptions& options, const Timed& timed, std::FILE* out,
+                 std::FILE* messages) {
+  const TimedRun& run = timed.run;
+  std::vector<std::string> words = {"sunder",    "simulate",
+                                    run.scene,   "--quiet",
+                                    "--json",    "-",
+                                    "--preset",  run.load.preset,
+                                    "--frames",  std::to_string(run.frames),
+                                    "--threads", std::to_string(options.threads)};
+  for (const std::string& assignment : run.load.set)
     words.insert(words.end(), {"--set", assignment});
-  }
+  if (run.draw > 0) words.insert(words.end(), {"--draw", std::to_string(run.draw)});
+  if (!run.without.empty()) words.insert(words.end(), {"--without", run.without});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // it may be any program
-  if (dup2(fileno(file), STDOUT_FILENO) >= 0) execv(timed.program.c_str(), arguments.data());
+  if (dup2(fileno(out), STDOUT_FILENO) < 0 || dup2(fileno(messages), STDERR_FILENO) < 0) return 1;
+  execv(timed.is_other ? options.against.c_str() : kThisProgram, arguments.data());
+  std::perror("it cannot be started");
   return 1;
 }
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+File temporary_file() {
+  File file(std::tmpfile(), &std::fclose);
+  if (!file)
+    throw FileError("no temporary file can be created; set TMPDIR to a folder with free space");
+  return file;
+}
 
 std::string text_of(std::FILE* file) {
   std::fseek(file, 0, SEEK_END);
@@ -125,71 +142,86 @@ void pin_to(int processor) {
   sched_setaffinity(0, sizeof set, &set);
 }
 
-/// Carries out runs and returns their figures as JSON; none if a stop signal was caught. Each run
-/// has a process of its own, so that its peak memory is measured alone. Several runs share one
-/// processor at the same time, so that disturbances, such as memory traffic, affect all equally.
-std::vector<std::string> run_once(const BenchOptions& options, std::span<const Timed> runs,
-                                  bool warn) {
-  std::vector<File> files;
+/// Carries out runs, and adds their figures to their repeats; to none if a stop signal was caught.
+/// Each run has a process of its own, so that its peak memory is measured alone. Several runs share
+/// one processor at the same time, so that disturbances, such as memory traffic, affect all
+/// equally. With `warn`, the warnings of the runs are printed.
+void run_once(const BenchOptions& options, std::span<Timed* const> runs, bool warn) {
+  std::vector<File> files, messages;
   std::vector<std::function<int()>> works;
   const int processor = runs.size() > 1 ? sched_getcpu() : -1;
-  for (const Timed& timed : runs) {
-    files.emplace_back(std::tmpfile(), &std::fclose);
-    std::FILE* const file = files.back().get();
-    if (!file)
-      throw FileError("no temporary file can be created; set TMPDIR to a folder with free space");
-    works.emplace_back([&options, &timed, warn, file, processor] {
+  for (const Timed* timed : runs) {
+    std::FILE* const out = files.emplace_back(temporary_file()).get();
+    std::FILE* const said = messages.emplace_back(temporary_file()).get();
+    works.emplace_back([&options, timed, out, said, processor] {
       if (processor >= 0) pin_to(processor);
-      return timed.program.empty() ? run_here(options, timed, warn, file)
-                                   : exec_program(options, timed, file);
+      return exec_program(options, *timed, out, said);
     });
   }
   const std::vector<ProcessResult> ended = run_in_child(works);
-  if (stop_signal() != 0) return {};
-  std::vector<std::string> figures;
+  if (stop_signal() != 0) return;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (ended[i].signal != 0 || ended[i].exit_code != 0) {
-      throw std::runtime_error(title_of(runs[i]) + " was not timed: " + ended[i].description());
-    }
-    figures.push_back(text_of(files[i].get()));
+    const std::string said = text_of(messages[i].get());
+    const std::string title = title_of(options, *runs[i]);
+    if (ended[i].signal != 0 || ended[i].exit_code != 0)
+      throw std::runtime_error(title + " was not timed: " + ended[i].description() +
+                               (said.empty() ? "" : "\n" + said));
+    if (warn && !runs[i]->is_other) std::fputs(said.c_str(), stderr);
+    Figures& figures = runs[i]->repeats.emplace_back(parse_figures(text_of(files[i].get()), title));
+    scenes::keep_for_reports(figures);
+    figures["/machine/processors"] = scenes::allowed_processors();
+    figures["/at_once"] = static_cast<std::int64_t>(runs.size());
   }
-  return figures;
 }
 
-/// Measurements: one object for each scene, and those of the other program, if there is one. Scenes
-/// that were not measured before a stop signal are left out.
+/// Measurements: one object for each scene. Scenes that were not measured before a stop signal are
+/// left out.
 struct Measured {
   std::vector<Figures> scenes, others;
 };
 
-/// Returns the median of the repeats.
-Figures median_of(const Timed& timed) {
-  std::vector<Figures> repeats;
-  for (const std::string& text : timed.repeats) {
-    repeats.push_back(parse_figures(text, title_of(timed)));
-  }
-  return scenes::median_of(repeats);
-}
-
 /// Repeats all runs in turns, each run once in a turn, so that a temporary slowdown of the machine
 /// affects all of them. Runs of a scene by this program and by the other are carried out at the
-/// same time, if each has one thread. Ends early when a stop signal is caught.
+/// same time, if each has one thread; the one that starts first is the other in the next turn. Ends
+/// early when a stop signal is caught.
 void repeat(const BenchOptions& options, std::vector<Timed>& all) {
-  const int turns = options.warm_up + options.repeats;
+  const int turns = options.warm_up + repeats_of(options);
   WorkProgress progress("bench", options.quiet);
   for (int turn = 0; turn < turns; ++turn) {
-    for (std::size_t i = 0, count = 0; i < all.size(); i += count) {
+    for (std::size_t i = 0; i < all.size();) {
       if (stop_signal() != 0) return;
       const double done = static_cast<double>(i) / static_cast<double>(all.size());
-      progress(title_of(all[i]).c_str(), (turn + done) / turns);
-      const bool has_other = i + 1 < all.size() && !all[i + 1].program.empty();
-      count = has_other && options.threads == 1 ? 2 : 1;
-      const auto figures = run_once(options, std::span(all).subspan(i, count),
-                                    turn == 0 && all[i].run.without.empty());
-      if (turn < options.warm_up || figures.empty()) continue;
-      for (std::size_t k = 0; k < count; ++k) all[i + k].repeats.push_back(figures[k]);
+      progress(title_of(options, all[i]).c_str(), (turn + done) / turns);
+      const bool warn = turn == 0 && all[i].run.without.empty();
+      std::vector<Timed*> runs = {&all[i++]};
+      if (i < all.size() && all[i].is_other) runs.push_back(&all[i++]);
+      if (turn % 2 != 0) std::ranges::reverse(runs);
+      if (is_at_once(options)) {
+        run_once(options, runs, warn);
+      } else {
+        for (Timed* run : runs) run_once(options, std::span(&run, 1), warn);
+      }
+      for (Timed* run : runs) {
+        if (turn < options.warm_up) run->repeats.clear();
+      }
     }
   }
+}
+
+/// Adds the pairs of runs of this program and of the other to the figures of a scene, unless they
+/// simulate something else, so that their times cannot be judged.
+void put_pairs(const BenchOptions& options, const Timed& now, const Timed& before, Figures& scene) {
+  const std::size_t pairs = std::min(now.repeats.size(), before.repeats.size());
+  if (pairs == 0) return;
+  const std::string hash = "/state_hash";
+  if (text_at(now.repeats.front(), hash) != text_at(before.repeats.front(), hash)) return;
+  scene["/against/program"] = options.against;
+  for (const auto& [place, value] : before.repeats.front()) {
+    if (place == "/commit" || place.starts_with("/build/")) scene["/against" + place] = value;
+  }
+  scenes::put_pairs(scenes::paired_figures(std::span(now.repeats).first(pairs),
+                                           std::span(before.repeats).first(pairs)),
+                    scene);
 }
 
 Measured measure(const BenchOptions& options) {
@@ -198,13 +230,15 @@ Measured measure(const BenchOptions& options) {
   catch_stop_signals();
   repeat(options, all);
   Measured measured;
-  for (const Timed& timed : all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Timed& timed = all[i];
     if (timed.repeats.empty()) continue;
-    const Figures median = median_of(timed);
-    if (!timed.program.empty()) {
+    const Figures median = scenes::median_of(timed.repeats);
+    if (timed.is_other) {
       measured.others.push_back(median);
     } else if (timed.run.without.empty()) {
-      measured.scenes.push_back(median);
+      Figures& scene = measured.scenes.emplace_back(median);
+      if (!options.against.empty()) put_pairs(options, timed, all[i + 1], scene);
     } else {
       Figures& scene = measured.scenes.back();
       scene["/features/" + timed.run.without + "/cpu_mean_ms"] =
@@ -218,13 +252,41 @@ std::vector<Figures> read_timings(const std::string& file) {
   return scenes::scenes_of(parse_figures(scenes::read_text(file), file), file);
 }
 
-/// Returns the fraction of --fail-slower by which a stage may be slower; none without the option.
-std::optional<double> fail_slower_of(const BenchOptions& options) {
+/// Returns the bounds of --fail-slower; none without the option. Throws InputError if what is asked
+/// for could never fail, or could fail by chance.
+std::optional<scenes::Bounds> bounds_of(const BenchOptions& options) {
   if (options.fail_slower.empty()) return std::nullopt;
-  if (options.compare.empty() && options.against.empty()) {
-    throw InputError("--fail-slower needs --compare OLD.json or --against PROGRAM");
-  }
-  return scenes::parse_percent("--fail-slower", options.fail_slower);
+  if (!options.compare.empty())
+    throw InputError(
+        "--fail-slower with --compare: two files cannot tell a slower program from a machine that "
+        "was slower at the time; use --against PROGRAM, which times both programs at once");
+  if (options.against.empty() && options.from.empty())
+    throw InputError("--fail-slower needs --against PROGRAM, the program before the change");
+  const scenes::Bounds bounds = scenes::parse_bounds("--fail-slower", options.fail_slower);
+  if (options.against.empty()) return bounds;
+  const std::size_t figures =
+      options.scenes.size() *
+      (options.draw > 0 ? scenes::kMaxPairedFiguresDrawn : scenes::kMaxPairedFigures);
+  const std::size_t least = scenes::least_repeats(figures);
+  if (static_cast<std::size_t>(repeats_of(options)) < least)
+    throw InputError("--repeats " + std::to_string(repeats_of(options)) +
+                     ": too few for --fail-slower, which judges up to " + std::to_string(figures) +
+                     " figures of these scenes and could not tell any; "
+                     "give --repeats " +
+                     std::to_string(least) + " or more");
+  return bounds;
+}
+
+/// Checks that timings from a file have what --fail-slower judges.
+void check_pairs(const std::string& file, const scenes::Judgements& judgements) {
+  if (judgements.figures.empty())
+    throw InputError(
+        "--fail-slower: " + file +
+        " has no pairs of runs; give a file of `sunder bench --against PROGRAM --json`");
+  if (judgements.has_too_few())
+    throw InputError("--fail-slower: " + file + " has " + std::to_string(judgements.repeats) +
+                     " repeats, too few to tell anything; at least " +
+                     std::to_string(judgements.least_repeats) + " are needed");
 }
 
 void check_program(const std::string& program) {
@@ -235,10 +297,38 @@ void check_program(const std::string& program) {
                    ": is not a program; give the path of another sunder, such as old/build/sunder");
 }
 
+std::string stall_lines(const Measured& measured, const std::string& other) {
+  std::string text;
+  for (const Figures& scene : measured.scenes)
+    text += scenes::stall_lines(scene, text_at(scene, "/scene"));
+  for (const Figures& scene : measured.others)
+    text += scenes::stall_lines(scene, text_at(scene, "/scene") + " by " + other);
+  return text;
+}
+
+std::string changes_table(const BenchOptions& options, const scenes::Comparison& comparison) {
+  const std::string table = scenes::changes_table(comparison.changes);
+  if (table.empty() || options.compare.empty()) return table;
+  return table +
+         "two files cannot tell what changed, the program or the machine in the time between; "
+         "--against PROGRAM can\n";
+}
+
+/// Stores the states of the scenes as the expected ones.
+void accept_states(const BenchOptions& options, std::span<const Figures> scenes,
+                   scenes::StateHashes& book) {
+  scenes::accept_states(scenes, book);
+  const std::string installed = installed_goldens_folder() + "/hashes.txt";
+  const std::string file =
+      options.hashes == installed ? own_goldens_folder() + "/hashes.txt" : options.hashes;
+  write_file(file, scenes::format_hashes(book));
+  options.print("stored the states in " + file + "\n");
+}
+
 }  // namespace
 
 int bench(const BenchOptions& options) {
-  const std::optional<double> fail_slower = fail_slower_of(options);
+  const std::optional<scenes::Bounds> bounds = bounds_of(options);
   check_program(options.against);
   scenes::StateHashes book = scenes::read_hashes(options.hashes);
   options.print((book.empty() ? "no stored states in " : "stored states of ") +
@@ -253,7 +343,7 @@ int bench(const BenchOptions& options) {
     measured.scenes = read_timings(options.from);
   }
   const int stopped = stop_signal();
-  const std::vector<Figures>& scenes = measured.scenes;
+  std::vector<Figures>& scenes = measured.scenes;
   if (stopped != 0) {
     options.print(scenes.empty() ? "stopped before the first scene was timed; nothing is written\n"
                                  : "stopped; results of the runs that were timed:\n");
@@ -261,27 +351,27 @@ int bench(const BenchOptions& options) {
   }
   const std::string old_name = options.against.empty() ? options.compare : options.against;
   if (!options.against.empty()) old = measured.others;
-  if (options.accept && stopped == 0) {
-    scenes::accept_states(scenes, book);
-    const std::string installed = installed_goldens_folder() + "/hashes.txt";
-    const std::string file =
-        options.hashes == installed ? own_goldens_folder() + "/hashes.txt" : options.hashes;
-    write_file(file, scenes::format_hashes(book));
-    options.print("stored the states in " + file + "\n");
-  }
+  const scenes::Judgements judgements = scenes::judge(scenes, bounds);
+  if (bounds && !options.from.empty()) check_pairs(options.from, judgements);
+  if (options.accept && stopped == 0) accept_states(options, scenes, book);
   std::vector<Verdict> verdicts = scenes::compare_states(scenes, book, options.hashes);
   scenes::Comparison comparison;
-  if (!old_name.empty()) {
-    comparison = scenes::compare(scenes, old, old_name, fail_slower, !options.against.empty());
-    verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
-  }
+  if (!old_name.empty()) comparison = scenes::compare(scenes, old, old_name);
+  std::erase_if(comparison.changes, [&](const scenes::Change& change) {  // judgements say more
+    return std::ranges::find(judgements.figures, change.scene, &scenes::Judged::scene) !=
+           judgements.figures.end();
+  });
+  verdicts.insert(verdicts.end(), comparison.verdicts.begin(), comparison.verdicts.end());
+  verdicts.insert(verdicts.end(), judgements.verdicts.begin(), judgements.verdicts.end());
+  scenes::put_judgements(judgements, scenes);
 
   options.print(scenes::timing_table(scenes) + scenes::features_table(scenes) +
-                scenes::changes_table(comparison.changes) + scenes::verdict_lines(verdicts, false));
+                stall_lines(measured, options.against) + changes_table(options, comparison) +
+                scenes::judgements_table(judgements) + scenes::verdict_lines(verdicts, false));
   options.write_json(format_figures(scenes::document_of(scenes)));
   if (!options.junit.empty()) write_file(options.junit, scenes::junit_xml("bench", verdicts));
   if (!options.page.empty()) {
-    write_file(options.page, scenes::timing_page(scenes, verdicts, comparison.changes));
+    write_file(options.page, scenes::timing_page(scenes, verdicts, comparison.changes, judgements));
   }
   const std::string failed = scenes::verdict_lines(verdicts, true);
   std::fputs(failed.c_str(), stderr);

@@ -62,6 +62,17 @@ void add_simulate(CLI::App& program, Command& chosen) {
                           "Write a trace of all threads, for ui.perfetto.dev");
   command.app->add_flag("--count-threads", command.options->count_threads,
                         "Run on one thread, and report what 2 to 16 threads would take");
+  CLI::Option* const draw =
+      command.app
+          ->add_option("--draw", command.options->draw,
+                       "Draw one of every N frames, of 640x360 pixels, and report its time")
+          ->type_name("N")
+          ->check(from_to(1, kMaxFrames));
+  CLI::Option* const without =
+      command.app
+          ->add_option("--without", command.options->without,
+                       "Leave out a feature that the JSON names as modelled, such as dust")
+          ->type_name("FEATURE");
   command.reads("SCENE", command.options->scene);
   command.reads("--verify", command.options->verify);
   command.writes("--take", command.options->take);
@@ -71,8 +82,8 @@ void add_simulate(CLI::App& program, Command& chosen) {
   command.reads("--resume", command.options->resume);
   command.add_frames();
   command.add_changes();
-  for (CLI::Option* const option :
-       {scene, command.app->get_option("--preset"), command.app->get_option("--set")})
+  for (CLI::Option* const option : {scene, draw, without, command.app->get_option("--preset"),
+                                    command.app->get_option("--set")})
     resume->excludes(option);
 }
 
@@ -212,27 +223,35 @@ void add_bench(CLI::App& program, Command& chosen) {
   BenchOptions& options = *command.options;
   auto* scenes = command.app->add_option("SCENE", options.scenes, "Files or names of scenes")
                      ->capture_default_str();
-  command.app->add_option("--repeats", options.repeats, "Runs of each scene, in turns")
-      ->check(from_to(1, 1000))
-      ->capture_default_str();
+  command.app
+      ->add_option("--repeats", options.repeats,
+                   "Runs of each scene, in turns; 5 by default, and 15 with --against")
+      ->check(from_to(1, 1000));
   command.app->add_option("--warm-up", options.warm_up, "Turns before the first that counts")
       ->check(from_to(0, 1000))
       ->capture_default_str();
+  auto* draw = command.app
+                   ->add_option("--draw", options.draw,
+                                "Draw one of every N frames, of 640x360 pixels, and time it, too")
+                   ->type_name("N")
+                   ->check(from_to(1, kMaxFrames));
   auto* features = command.app->add_flag("--features", options.features,
                                          "Also run each scene without each feature it has");
-  auto* compare = command.app->add_option("--compare", options.compare,
-                                          "Compare with an earlier --json file, also of simulate; "
-                                          "fail if a state differs or a scene is missing in it");
+  auto* compare = command.app->add_option(
+      "--compare", options.compare,
+      "Show the changes from an earlier --json file, also of simulate; fail if a state differs, a "
+      "scene is missing in it, or times cannot be compared");
   auto* against = command.app
                       ->add_option("--against", options.against,
                                    "Compare with another sunder program, timed at the same time")
                       ->type_name("PROGRAM")
                       ->excludes(compare);
   command.app
-      ->add_option("--fail-slower", options.fail_slower,
-                   "With --compare or --against: fail if a stage is slower by more than this, as "
-                   "is the low end of its confidence interval")
-      ->type_name("PERCENT");
+      ->add_option(
+          "--fail-slower", options.fail_slower,
+          "With --against: fail if a figure is certainly slower by more than this; p99 may "
+          "be by 2 times, max by 4 times this, or as given: 5%,max=50%,memory=2%")
+      ->type_name("PERCENT[,FIGURE=PERCENT...]");
   auto* accept = command.app->add_flag("--accept", options.accept,
                                        "Store the states of this run as the expected ones");
   command.app->add_option("--hashes", options.hashes, "File of stored states")
@@ -243,6 +262,7 @@ void add_bench(CLI::App& program, Command& chosen) {
       ->excludes(scenes)
       ->excludes(against)
       ->excludes(features)
+      ->excludes(draw)
       ->excludes(accept);
   command.app->add_option("--junit", options.junit, "Write passed and failed tests as JUnit XML");
   command.app->add_option("--page", options.page,

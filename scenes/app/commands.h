@@ -67,6 +67,8 @@ struct SimulateOptions : CommonOptions {
   double hits_m_s = std::numeric_limits<double>::infinity();
   std::string trace;                       ///< File for spans of all threads; empty: none.
   bool count_threads = false;              ///< Report what more threads would take.
+  int draw = 0;                            ///< Draw one of this many frames, and time it; 0: none.
+  std::string without;                     ///< Feature that is turned off; empty: none.
   std::pair<double, std::string> save_at;  ///< Time in s, and file for the state; empty: none.
   std::string resume;  ///< File of a saved state to go on from, in place of a scene; empty: none.
 };
@@ -107,13 +109,14 @@ struct BenchOptions : CommonOptions {
   std::vector<std::string> scenes = {"house", "brick_wall", "column_row", "glass"};
   scenes::LoadOptions load;
   int frames = scenes::kStateFrames;  ///< Index of the last frame, if the scene is that long.
-  int repeats = 5;
-  int warm_up = 1;          ///< Turns before the repeats, which are not counted.
-  bool features = false;    ///< True to also time scenes without each feature they have.
-  std::string from;         ///< File of timings to report on; empty: run the scenes.
-  std::string compare;      ///< File of older timings; empty: none.
-  std::string against;      ///< Another program to time in the same turns; empty: none.
-  std::string fail_slower;  ///< "10%"; empty: never.
+  int repeats = 0;                    ///< 0: 5, or kJudgedRepeats with another program.
+  int warm_up = 1;                    ///< Turns before the repeats, which are not counted.
+  int draw = 0;                       ///< As in SimulateOptions.
+  bool features = false;              ///< True to also time scenes without each feature they have.
+  std::string from;                   ///< File of timings to report on; empty: run the scenes.
+  std::string compare;                ///< File of older timings; empty: none.
+  std::string against;                ///< Another program to time in the same turns; empty: none.
+  std::string fail_slower;            ///< As parse_bounds() reads it; empty: never.
   std::string hashes = hashes_file();
   bool accept = false;
   std::string junit;  ///< File of JUnit XML to write; empty: none.

@@ -20,6 +20,7 @@
 #include "scenes/app/commands.h"
 #include "scenes/file/mesh_cache.h"
 #include "scenes/make_simulation.h"
+#include "scenes/timing/machine.h"
 #include "solver/rigid/rigid_physics.h"
 
 namespace sunder::app {
@@ -55,32 +56,15 @@ std::string megabytes_text(double bytes) {
 }
 
 void report_build(Report& report) {
-  const BuildInfo info = build_info();
-  report.figures["/version"] = info.version;
-  report.figures["/commit"] = info.commit;
-  report.figures["/build/processor"] = info.processor;
-  report.figures["/build/type"] = info.type;
-  report.figures["/build/compiler"] = info.compiler;
-  report.figures["/build/sanitizers"] = info.sanitizers;
-  report.figures["/build/python"] = info.has_python;
-}
-
-/// Returns the name of the vector instructions that the contact solver uses for `lanes` lanes.
-const char* instructions_of([[maybe_unused]] int lanes) {
-#if defined(__x86_64__)
-  return lanes == 16 ? "AVX-512" : lanes == 8 ? "AVX2" : "SSE2";
-#elif defined(__aarch64__)
-  return "NEON";
-#else
-  return "vectors of the compiler";
-#endif
+  report.figures = build_figures();
+  report.figures["/version"] = build_info().version;
 }
 
 void check_processor(Report& report) {
   const int lanes = solver::lanes_in_use(0);
   report.findings.push_back({"processor", State::kGood,
                              cpu_name() + ", " + std::to_string(lanes) + " lanes in use (" +
-                                 instructions_of(lanes) + ")"});
+                                 scenes::instructions_of(lanes) + ")"});
   report.findings.push_back({"threads", State::kGood, std::to_string(threads())});
   report.figures["/cpu"] = cpu_name();
   report.figures["/lanes"] = std::int64_t{lanes};

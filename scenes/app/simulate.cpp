@@ -11,14 +11,20 @@
 #include "engine/base/check.h"
 #include "engine/io/bytes.h"
 #include "engine/io/event_log.h"
+#include "engine/io/figures.h"
 #include "engine/io/recording/recording.h"
 #include "engine/io/recording/recording_verifier.h"
 #include "engine/io/statistics.h"
 #include "engine/io/trace_file.h"
 #include "engine/model/checks/item_check.h"
 #include "engine/world/simulation.h"
+#include "scenes/app/build_info.h"
+#include "scenes/app/draw_times.h"
 #include "scenes/app/run.h"
 #include "scenes/app/run_notes.h"
+#include "scenes/features.h"
+#include "scenes/timing/machine.h"
+#include "scenes/timing/timing.h"
 
 namespace sunder::app {
 namespace {
@@ -29,16 +35,30 @@ std::string megabytes(std::uint64_t bytes) {
   return text;
 }
 
+/// Returns the names of the features that can be turned off.
+std::string names_of_features() {
+  std::string names;
+  for (const scenes::Feature& feature : scenes::features()) {
+    if (feature.turn_off) names += (names.empty() ? "" : ", ") + std::string(feature.name);
+  }
+  return names;
+}
+
 /// Returns the world of the scene, or of the saved state, of the options. Sets `so_far` to what was
 /// saved with the state.
 World make_world(const SimulateOptions& options, scenes::RunSoFar& so_far) {
+  const scenes::Feature* const feature = scenes::find_feature(options.without);
+  if (!options.without.empty() && !(feature && feature->turn_off))
+    throw InputError("--without " + options.without + ": expected one of " + names_of_features());
   if (options.scene.empty() && options.resume.empty())
     throw InputError("SCENE is required, or --resume with the file of a saved state");
   const scenes::SimulationOptions simulation =
       simulation_options({.count_loops = options.count_threads});
-  if (options.resume.empty())
-    return scenes::make_world(scenes::load_scene(options.scene, options.load), simulation);
-  return scenes::restore_world(read_file(options.resume), simulation, options.resume, &so_far);
+  if (!options.resume.empty())
+    return scenes::restore_world(read_file(options.resume), simulation, options.resume, &so_far);
+  const scenes::TimedRun run{
+      .scene = options.scene, .load = options.load, .without = options.without};
+  return scenes::make_world(scenes::load_scene(run), simulation);
 }
 
 /// A sink of what is said of a whole run, which includes the frames up to the saved state that the
@@ -49,7 +69,8 @@ class RunTotals final : public FrameSink {
   RunTotals(const Scene& scene, const std::string& preset, double start_s,
             const scenes::RunSoFar& so_far)
       : statistics(scenes::run_info(scene, preset)),
-        notes(scene, so_far.totals.empty() ? start_s : 0) {
+        notes(scene, so_far.totals.empty() ? start_s : 0),
+        is_whole_(start_s == 0 || !so_far.totals.empty()) {
     if (so_far.totals.empty()) return;
     Archive bytes(so_far.totals);
     bytes(statistics, hash, notes);
@@ -69,11 +90,15 @@ class RunTotals final : public FrameSink {
     return {failed, failed_m3, bytes.take()};
   }
 
+  /// Returns true unless the run goes on from a state that was saved without its totals.
+  bool is_whole() const { return is_whole_; }
+
   Statistics statistics;
   StateHash hash;
   RunNotes notes;
 
  private:
+  bool is_whole_;
   bool has_first_frame_ = false;  ///< The first frame taken, that of the saved state, is included.
 };
 
@@ -122,6 +147,19 @@ int report(const SimulateOptions& options, const RecordingVerifier& verifier) {
   return 1;
 }
 
+/// Returns what a run of this program is besides its statistics.
+Figures figures_of_run(const SimulateOptions& options, const RunTotals& totals, int last_frame) {
+  Figures figures;
+  if (totals.is_whole()) figures = scenes::state_figures(totals.hash, last_frame);
+  figures.merge(scenes::machine_figures());
+  figures.merge(build_figures());
+  for (std::size_t i = 0; i < options.load.set.size(); ++i)
+    figures["/set/" + std::to_string(i)] = options.load.set[i];
+  if (!options.without.empty()) figures["/without"] = options.without;
+  figures["/memory_MB"] = scenes::peak_memory_MB();
+  return figures;
+}
+
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
@@ -153,6 +191,8 @@ int simulate(const SimulateOptions& options) {
   std::optional<StateSaver> saver;
   if (!options.save_at.second.empty())
     sinks.push_back(&saver.emplace(simulation.world(), totals, save_s, options.save_at.second));
+  std::optional<DrawTimes> draw;
+  if (options.draw > 0) sinks.push_back(&draw.emplace(options.draw));
   std::optional<RecordingReader> recording;
   std::optional<RecordingVerifier> verifier;
   std::optional<VerifiedSource> verified;
@@ -176,7 +216,11 @@ int simulate(const SimulateOptions& options) {
   if (saver && saver->saved()) options.print("wrote " + options.save_at.second + "\n");
   const std::string hash = totals.hash.hex();
   options.print(statistics.table() + "state hash " + hash + "\n" + totals.notes.text());
-  options.write_json(statistics.json(hash, /*per_frame=*/true));
+  if (!options.json.empty()) {
+    Figures figures = figures_of_run(options, totals, scenes::last_frame(scene));
+    if (draw) figures.merge(draw->figures());
+    options.write_json(add_figures(statistics.json(hash, /*per_frame=*/true), figures));
+  }
   if (writer) options.print("wrote " + options.take + ", " + megabytes(writer->bytes()) + "\n");
   if (events)
     options.print("wrote " + options.events + ", " + std::to_string(events->events()) +

@@ -1,10 +1,7 @@
 #include "scenes/timing/compare.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
-#include "engine/base/check.h"
 #include "engine/base/printed.h"
 #include "engine/model/work.h"
 #include "scenes/report/page.h"
@@ -12,9 +9,23 @@
 namespace sunder::scenes {
 namespace {
 
-/// Values that must be equal in both runs, if the older file has them.
+/// Values that must be equal in both runs, if both files have them: they say what was simulated.
 constexpr const char* kRunKeys[] = {
-    "/preset", "/frames", "/dt_s", "/substeps", "/solver/max_colors", "/solver/sweeps", "/threads"};
+    "/preset", "/frames", "/dt_s", "/substeps", "/solver/max_colors", "/solver/sweeps"};
+/// Values without which times cannot be compared: they say on what, and how, the run was timed.
+constexpr const char* kMachineKeys[] = {"/threads",
+                                        "/cpu",
+                                        "/machine/governor",
+                                        "/machine/processors",
+                                        "/machine/omp_proc_bind",
+                                        "/machine/omp_places",
+                                        "/at_once",
+                                        "/draw/every",
+                                        "/draw/renderer"};
+/// Values that are named if they differ, as one may want to compare them.
+constexpr const char* kNamedKeys[] = {
+    "/commit",     "/build/compiler",   "/build/flags",          "/build/processor",
+    "/build/type", "/build/sanitizers", "/machine/instructions", "/machine/kernel"};
 
 const Figures* find_scene(std::span<const Figures> scenes, const std::string& name) {
   const auto found = std::ranges::find_if(
@@ -23,140 +34,96 @@ const Figures* find_scene(std::span<const Figures> scenes, const std::string& na
 }
 
 std::string figure_text(const Figures& figures, const std::string& place) {
-  const std::string text = text_at(figures, place);
-  return text.empty() ? rounded(number_at(figures, place), 6) : text;
+  const auto found = figures.find(place);
+  const bool is_text = std::holds_alternative<std::string>(found->second);
+  return is_text ? text_at(figures, place) : rounded(number_at(figures, place), 6);
 }
 
-/// Returns the reason why the runs cannot be compared; empty if they can.
-std::string incomparable_reason(const Figures& now, const Figures& old,
-                                const std::string& old_file) {
-  for (const std::string place : kRunKeys) {
-    if (!old.contains(place)) continue;  // file of an older version
+/// Returns "KEY is A in OLD and B now" for each value that both have and that differs.
+std::vector<std::string> differences(std::span<const char* const> keys, const Figures& now,
+                                     const Figures& old, const std::string& old_file) {
+  std::vector<std::string> texts;
+  for (const std::string place : keys) {
+    if (!old.contains(place) || !now.contains(place)) continue;  // file of an older version
     const std::string after = figure_text(now, place), before = figure_text(old, place);
     if (after == before) continue;
-    return "not comparable: " + place.substr(1) + " is " + before + " in " + old_file + " and " +
-           after + " now; run with the same settings";
+    texts.push_back(place.substr(1) + " is " + before + " in " + old_file + " and " + after +
+                    " now");
   }
-  return {};
+  return texts;
 }
 
-/// Checks that two comparable runs have the same state.
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
+  return all;
+}
+
+/// Checks that two runs of the same settings have the same state.
 Verdict check_same_state(const Figures& now, const Figures& old, const std::string& old_file) {
-  Verdict verdict{text_at(now, "/scene"), "same run", Outcome::kPassed, {}};
   const std::string after = text_at(now, "/state_hash"), before = text_at(old, "/state_hash");
-  if (after != before) {
-    verdict.outcome = Outcome::kFailed;
-    verdict.text = "the state differs: " + before + " in " + old_file + ", " + after + " now" +
-                   "; the motion has changed, so that times cannot be compared";
+  Verdict verdict{text_at(now, "/scene"), "same run", Outcome::kPassed, {}};
+  if (after == before) {
+    const std::string named = joined(differences(kNamedKeys, now, old, old_file));
+    verdict.text = "same state as in " + old_file + (named.empty() ? "" : "; " + named);
     return verdict;
   }
-  const std::string cpu = text_at(old, "/cpu");
-  verdict.text = "same state as in " + old_file;
-  if (cpu != text_at(now, "/cpu")) verdict.text += ", which was timed on another processor: " + cpu;
+  verdict.outcome = Outcome::kFailed;
+  verdict.text = "the state differs: " + before + " in " + old_file + ", " + after + " now" +
+                 "; the motion has changed, so that times cannot be compared";
   return verdict;
 }
 
-/// Returns the stage's means by repeat; the time at `place` if there are none.
-std::vector<double> repeats_of(const Figures& scene, const Change& change,
-                               const std::string& place) {
-  const std::string at = "/repeat_ms/" + change.stage + (change.is_cpu ? "/processor/" : "/wall/");
-  std::vector<double> means;
-  while (scene.contains(at + std::to_string(means.size())))
-    means.push_back(number_at(scene, at + std::to_string(means.size())));
-  if (means.empty() || change.figure != "mean") return {number_at(scene, place)};
-  return means;
-}
-
-/// Returns the change of a stage in a time that both runs have: processor time before wall time,
-/// and the mean before the median, which can jump if frames are partly idle.
-std::optional<Change> change_of(const std::string& stage, const std::string& at, const Figures& now,
-                                const Figures& old, bool paired) {
-  for (const std::string figure : {"mean", "p50"}) {
-    for (const bool is_cpu : {true, false}) {
-      const std::string place = at + (is_cpu ? "cpu_" : "") + figure + "_ms";
-      if (!now.contains(place) || !old.contains(place)) continue;
-      Change change{text_at(now, "/scene"), stage, figure, is_cpu, number_at(old, place),
-                    number_at(now, place),  {}};
-      change.ratio =
-          ratio_interval(repeats_of(now, change, place), repeats_of(old, change, place), paired);
-      return change;
-    }
-  }
-  return std::nullopt;
-}
-
-std::string describe(const Change& change) {
-  return change.figure + " " + rounded(change.before_ms) + " ms of " +
-         (change.is_cpu ? "processor" : "wall") + " time before, " + rounded(change.after_ms) +
-         " ms now; change " + change.interval();
-}
-
-Verdict check_stage(const Change& change, std::optional<double> fail_slower) {
-  const bool fails = fail_slower && change.is_slower(*fail_slower);
-  std::string text = describe(change);
-  if (fails) text += ", slower by more than " + rounded(100 * *fail_slower) + " %";
-  return {change.scene, "stage " + change.stage, fails ? Outcome::kFailed : Outcome::kPassed, text};
-}
-
-void compare_stages(const Figures& now, const Figures& old, std::optional<double> fail_slower,
-                    bool paired, bool same_state, Comparison& comparison) {
-  const auto add = [&](const std::string& stage, const std::string& at) {
-    const std::optional<Change> change = change_of(stage, at, now, old, paired);
-    if (change && !same_state) {
-      comparison.changes.push_back(*change);
-      return;
-    }
-    if (!change) {
-      comparison.verdicts.push_back({text_at(now, "/scene"), "stage " + stage, Outcome::kFailed,
-                                     "the older file has no time of this stage"});
-      return;
-    }
-    comparison.verdicts.push_back(check_stage(*change, fail_slower));
-    comparison.changes.push_back(*change);
+std::vector<Change> changes_of(const Figures& now, const Figures& old) {
+  std::vector<Change> changes;
+  const auto add = [&](const std::string& what, const std::string& figure, const std::string& unit,
+                       const std::string& place) {
+    if (!now.contains(place) || !old.contains(place)) return;
+    changes.push_back(
+        {text_at(now, "/scene"), what, figure, unit, number_at(old, place), number_at(now, place)});
   };
-  for (const std::string stage : kStageNames) add(stage, "/stages/" + stage + "/");
-  add("frame", "/frame/");
+  const auto add_times = [&](const std::string& what, const std::string& figure,
+                             const std::string& at) {
+    add(what, figure, "ms of processor time", at + "cpu_" + figure + "_ms");
+    add(what, figure, "ms of wall time", at + figure + "_ms");
+  };
+  for (const std::string stage : kStageNames) add_times(stage, "mean", "/stages/" + stage + "/");
+  for (const std::string figure : {"mean", "p50", "p95", "p99", "max"})
+    add_times("frame", figure, "/frame/");
+  add("memory", "peak", "MB", "/memory_MB");
+  add_times("draw", "mean", "/draw/");
+  return changes;
 }
 
 }  // namespace
 
-double parse_percent(const std::string& flag, const std::string& text) {
-  double percent = 0;
-  const std::string digits = text.ends_with('%') ? text.substr(0, text.size() - 1) : text;
-  const char* const end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, percent);
-  if (error != std::errc() || stop != end || !(percent >= 0) || !std::isfinite(percent)) {
-    throw InputError(flag + " " + text + ": expected a percentage of at least 0, such as 10%");
-  }
-  return percent / 100;
-}
-
-bool Change::is_slower(double part) const {
-  return std::min(after_ms, ratio.low * before_ms) > (1 + part) * std::max(before_ms, kNoise_ms);
-}
-
-std::string Change::interval() const {
-  if (!(ratio.confidence > 0)) return "one run each, no interval";
-  return printed("%+.1f to %+.1f %% (%.0f %% confidence)", 100 * (ratio.low - 1),
-                 100 * (ratio.high - 1), 100 * ratio.confidence);
-}
-
 Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
-                   const std::string& old_file, std::optional<double> fail_slower, bool paired) {
+                   const std::string& old_file) {
   Comparison comparison;
+  const auto fail = [&](const std::string& scene, const std::string& what,
+                        const std::string& text) {
+    comparison.verdicts.push_back({scene, what, Outcome::kFailed, text});
+  };
   for (const Figures& scene : now) {
     const std::string name = text_at(scene, "/scene");
     const Figures* before = find_scene(old, name);
-    const std::string why =
-        before ? incomparable_reason(scene, *before, old_file)
-               : "not in " + old_file + "; time this scene with the older program, too";
-    if (!why.empty()) {
-      comparison.verdicts.push_back({name, "same run", Outcome::kFailed, why});
+    if (!before) {
+      fail(name, "same run",
+           "not in " + old_file + "; time this scene with the older program, too");
+      continue;
+    }
+    if (const auto texts = differences(kRunKeys, scene, *before, old_file); !texts.empty()) {
+      fail(name, "same run", "not comparable: " + joined(texts) + "; run with the same settings");
       continue;
     }
     comparison.verdicts.push_back(check_same_state(scene, *before, old_file));
-    const bool same_state = comparison.verdicts.back().outcome == Outcome::kPassed;
-    compare_stages(scene, *before, fail_slower, paired, same_state, comparison);
+    if (const auto texts = differences(kMachineKeys, scene, *before, old_file); !texts.empty()) {
+      fail(name, "same machine",
+           "times are not comparable: " + joined(texts) + "; time both in the same way");
+      continue;
+    }
+    const std::vector<Change> changes = changes_of(scene, *before);
+    comparison.changes.insert(comparison.changes.end(), changes.begin(), changes.end());
   }
   return comparison;
 }
@@ -164,14 +131,13 @@ Comparison compare(std::span<const Figures> now, std::span<const Figures> old,
 std::string changes_table(std::span<const Change> changes) {
   if (changes.empty()) return {};
   std::string text =
-      "scene          stage      ms per frame     before       now   change  interval\n";
+      "scene          figure          unit                     before       now   change\n";
   for (const Change& change : changes) {
-    const double part = change.before_ms > 0 ? change.after_ms / change.before_ms - 1 : 0;
-    text +=
-        printed("%-14s %-10s %-4s %-9s %9.3f %9.3f %+7.1f %%  ", change.scene.c_str(),
-                change.stage.c_str(), change.figure.c_str(), change.is_cpu ? "processor" : "wall",
-                change.before_ms, change.after_ms, 100 * part);
-    text += change.interval() + (change.is_slower(0) ? "  slower\n" : "\n");
+    text += printed("%-14s %-15s %-20s %10.4g %9.4g", change.scene.c_str(),
+                    (change.what + " " + change.figure).c_str(), change.unit.c_str(), change.before,
+                    change.now);
+    text += change.before > 0 ? printed(" %+7.1f %%\n", 100 * (change.now / change.before - 1))
+                              : "        -\n";
   }
   return text;
 }

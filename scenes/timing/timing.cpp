@@ -1,7 +1,5 @@
 #include "scenes/timing/timing.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -15,17 +13,10 @@
 #include "engine/io/statistics.h"
 #include "engine/model/work.h"
 #include "scenes/features.h"
-#include "scenes/make_simulation.h"
+#include "scenes/timing/stalls.h"
 
 namespace sunder::scenes {
 namespace {
-
-/// Peak resident memory of this process.
-double memory_MB() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
-}
 
 /// Returns true for values to keep: all except the work items of frames, which reports do not use.
 bool is_kept(const std::string& place) {
@@ -49,38 +40,62 @@ double spread_of(std::span<const Figures> runs) {
   return median > 0 ? (number_at(*largest, place) - number_at(*least, place)) / median : 0;
 }
 
-/// Returns the value at `place` of every frame.
-std::vector<double> frame_values(const Figures& scene, const std::string& place) {
-  std::vector<double> values;
-  for (int i = 0;; ++i) {
-    const std::string at = "/per_frame/" + std::to_string(i) + place;
-    if (!scene.contains(at)) return values;
-    values.push_back(number_at(scene, at));
+/// Appends the value at `place` of every frame that has one.
+void append_frame_values(const Figures& run, const std::string& place,
+                         std::vector<double>& values) {
+  const std::size_t frames = static_cast<std::size_t>(number_at(run, "/frames"));
+  for (std::size_t i = 0; i < frames; ++i) {
+    const auto found = run.find("/per_frame/" + std::to_string(i) + place);
+    if (found != run.end()) values.push_back(number_at(run, found->first));
   }
 }
 
-void put_times(const std::string& at, const std::vector<double>& ms, Figures& scene) {
-  for (const auto& [figure, q] :
-       {std::pair{"p50_ms", 0.5}, {"p95_ms", 0.95}, {"p99_ms", 0.99}, {"max_ms", 1.0}}) {
-    scene[at + figure] = quantile(ms, q);
+/// Times of every frame: of the medians over the repeats, and of all repeats one after the other.
+struct FrameTimes {
+  std::vector<double> typical_ms, all_ms;
+
+  void operator+=(const FrameTimes& other) {
+    typical_ms.resize(other.typical_ms.size());
+    all_ms.resize(other.all_ms.size());
+    std::ranges::transform(typical_ms, other.typical_ms, typical_ms.begin(), std::plus());
+    std::ranges::transform(all_ms, other.all_ms, all_ms.begin(), std::plus());
   }
-  scene[at + "mean_ms"] =
-      std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+};
+
+FrameTimes frame_times(std::span<const Figures> runs, const Figures& median,
+                       const std::string& place) {
+  FrameTimes times;
+  append_frame_values(median, place, times.typical_ms);
+  for (const Figures& run : runs) append_frame_values(run, place, times.all_ms);
+  return times;
 }
 
-/// Computes the times of stages and of the frame from those of single frames.
-void put_times(Figures& scene) {
+/// Writes mean, p50 and p95 of typical frames, and p99 and the largest time of all frames: medians
+/// hide what is slow in one repeat only.
+void put_times(const std::string& at, const FrameTimes& times, Figures& scene) {
+  if (times.typical_ms.empty()) return;  // file of an older version, or no pictures
+  scene[at + "p50_ms"] = quantile(times.typical_ms, 0.5);
+  scene[at + "p95_ms"] = quantile(times.typical_ms, 0.95);
+  scene[at + "p99_ms"] = quantile(times.all_ms, 0.99);
+  scene[at + "max_ms"] = quantile(times.all_ms, 1);
+  scene[at + "mean_ms"] = std::accumulate(times.typical_ms.begin(), times.typical_ms.end(), 0.0) /
+                          static_cast<double>(times.typical_ms.size());
+}
+
+/// Computes the times of stages, of the frame and of drawing from those of single frames.
+void put_times(std::span<const Figures> runs, Figures& median) {
   for (const bool is_cpu : {true, false}) {
     const std::string clock = is_cpu ? "cpu_" : "";
-    std::vector<double> all_ms;
+    FrameTimes frame;
     for (const std::string stage : kStageNames) {
-      const auto ms = frame_values(scene, (is_cpu ? "/stages_cpu_ms/" : "/stages_ms/") + stage);
-      if (ms.empty()) break;  // file of an older version
-      put_times("/stages/" + stage + "/" + clock, ms, scene);
-      all_ms.resize(ms.size());
-      std::ranges::transform(all_ms, ms, all_ms.begin(), std::plus());
+      const FrameTimes times =
+          frame_times(runs, median, (is_cpu ? "/stages_cpu_ms/" : "/stages_ms/") + stage);
+      put_times("/stages/" + stage + "/" + clock, times, median);
+      frame += times;
     }
-    if (!all_ms.empty()) put_times("/frame/" + clock, all_ms, scene);
+    put_times("/frame/" + clock, frame, median);
+    put_times("/draw/" + clock, frame_times(runs, median, is_cpu ? "/draw_cpu_ms" : "/draw_ms"),
+              median);
   }
 }
 
@@ -108,32 +123,8 @@ Scene load_scene(const TimedRun& run) {
   return scene;
 }
 
-Figures time_run(const TimedRun& run, bool warn) {
-  Scene scene = load_scene(run);
-  const int end = last_frame(scene);
-  const int last = std::min(run.frames, end), state_frames = std::min(kStateFrames, end);
-  Statistics statistics(run_info(scene, run.load.preset));
-  StateHash states;
-  SimulationOptions options;
-  options.warn = [warn](const std::string& warning) {
-    if (warn) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  };
-  const auto simulation = make_simulation(std::move(scene), options);
-  for (int i = 0; i <= last; ++i) {
-    const FramePtr frame = simulation->next();
-    statistics.take(frame);
-    states.take(frame);
-  }
-  Figures figures = parse_figures(statistics.json(states.hex(), true), run.scene);
-  std::erase_if(figures, [](const auto& entry) { return !is_kept(entry.first); });
-  for (std::size_t i = 0; i < run.load.set.size(); ++i) {
-    figures["/set/" + std::to_string(i)] = run.load.set[i];
-  }
-  figures["/memory_MB"] = memory_MB();
-  if (last < state_frames) return figures;
-  figures["/state/frames"] = std::int64_t{state_frames};
-  figures["/state/hash"] = states.hex(static_cast<std::size_t>(state_frames) + 1);
-  return figures;
+void keep_for_reports(Figures& run) {
+  std::erase_if(run, [](const auto& entry) { return !is_kept(entry.first); });
 }
 
 Figures median_of(std::span<const Figures> runs) {
@@ -146,8 +137,9 @@ Figures median_of(std::span<const Figures> runs) {
       *real = median_at(runs, place);
     }
   }
-  put_times(median);
+  put_times(runs, median);
   put_repeats(runs, median);
+  put_stalls(find_stalls(runs), median);
   median["/repeats"] = static_cast<std::int64_t>(runs.size());
   median["/spread"] = spread_of(runs);
   median["/differs"] = std::ranges::any_of(runs, [&](const Figures& run) {

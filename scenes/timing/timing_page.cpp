@@ -5,6 +5,7 @@
 #include "engine/model/work.h"
 #include "scenes/report/page.h"
 #include "scenes/report/plot.h"
+#include "scenes/timing/stalls.h"
 #include "scenes/timing/timing_report.h"
 
 namespace sunder::scenes {
@@ -46,10 +47,11 @@ std::string histogram(const Curve& frames) {
 
 std::string stages_table(const Figures& scene) {
   std::vector<std::string> head = {"ms per frame"};
-  std::vector<std::vector<Cell>> rows(kStages + 1);
-  for (std::size_t row = 0; row <= kStages; ++row) {
-    const std::string name = row < kStages ? kStageNames[row] : "frame";
-    const std::string at = row < kStages ? "/stages/" + name + "/" : "/frame/";
+  const bool is_drawn = scene.contains("/draw/every");
+  std::vector<std::vector<Cell>> rows(is_drawn ? kStages + 2 : kStages + 1);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const std::string name = row < kStages ? kStageNames[row] : row == kStages ? "frame" : "draw";
+    const std::string at = (row < kStages ? "/stages/" : "/") + name + "/";
     rows[row].push_back({name});
     for (const std::string clock : {"cpu_", ""}) {
       for (const std::string figure : {"mean", "p50", "p95", "p99", "max"}) {
@@ -95,31 +97,48 @@ std::string verdicts_table(const std::string& scene, std::span<const Verdict> ve
   return html_table({"check", "", ""}, rows);
 }
 
+std::string stalls_list(const Figures& scene) {
+  const std::string lines = stall_lines(scene, text_at(scene, "/scene"));
+  return lines.empty() ? "" : "<pre>" + escaped(lines) + "</pre>\n";
+}
+
 std::string changes_table(const std::string& scene, std::span<const Change> changes) {
   std::vector<std::vector<Cell>> rows;
   for (const Change& change : changes) {
     if (change.scene != scene) continue;
-    const double part = change.before_ms > 0 ? change.after_ms / change.before_ms - 1 : 0;
-    rows.push_back({{change.stage},
-                    {change.figure + (change.is_cpu ? ", processor time" : ", wall time")},
-                    {rounded(change.before_ms)},
-                    {rounded(change.after_ms)},
-                    {rounded(100 * part) + " %", change.is_slower(0)},
-                    {change.interval()}});
+    rows.push_back(
+        {{change.what + " " + change.figure},
+         {change.unit},
+         {rounded(change.before)},
+         {rounded(change.now)},
+         {change.before > 0 ? rounded(100 * (change.now / change.before - 1)) + " %" : ""}});
   }
-  return rows.empty()
-             ? ""
-             : html_table({"ms per frame", "", "before", "now", "change", "interval"}, rows);
+  return rows.empty() ? "" : html_table({"figure", "", "before", "now", "change"}, rows);
+}
+
+std::string judgements_table(const std::string& scene, const Judgements& judgements) {
+  std::vector<std::vector<Cell>> rows;
+  for (const Judged& judged : judgements.figures) {
+    if (judged.scene != scene) continue;
+    rows.push_back({{judged.pair.name()},
+                    {judged.pair.unit},
+                    {rounded(judged.before)},
+                    {rounded(judged.now)},
+                    {judged.interval_text()},
+                    {name_of(judged.judgement), judged.judgement == Judgement::kSlower}});
+  }
+  return rows.empty() ? "" : html_table({"figure", "", "before", "now", "change", ""}, rows);
 }
 
 std::string section(const Figures& scene, std::span<const Verdict> verdicts,
-                    std::span<const Change> changes) {
+                    std::span<const Change> changes, const Judgements& judgements) {
   const std::string name = text_at(scene, "/scene");
   const std::vector<Curve> cpu = frames_of(scene, "stages_cpu_ms");
   const std::vector<Curve> wall = frames_of(scene, "stages_ms");
   return "<section>\n<h2>" + escaped(name) + "</h2>\n<p>" + escaped(run_line(scene)) + "<br>" +
          escaped(counts_line(scene)) + "<br>" + escaped(text_at(scene, "/cpu")) + "</p>\n" +
-         verdicts_table(name, verdicts) + changes_table(name, changes) + stages_table(scene) +
+         verdicts_table(name, verdicts) + changes_table(name, changes) +
+         judgements_table(name, judgements) + stages_table(scene) + stalls_list(scene) +
          svg_curves({"processor time", {"simulated time, s"}, {"ms per frame"}}, cpu) +
          svg_curves({"wall time", {"simulated time, s"}, {"ms per frame"}}, wall) +
          histogram(cpu[0]) + modelled_table(scene) + "</section>\n";
@@ -127,16 +146,17 @@ std::string section(const Figures& scene, std::span<const Verdict> verdicts,
 
 constexpr const char* kIntroduction =
     "<h1>Frame timing</h1>\n"
-    "<p>A frame is 1/60 s of simulated time. Every figure is the median over the repeats of a run; "
-    "p50 to max are over its frames. Processor time is summed over all threads; wall time is "
-    "elapsed time.</p>\n";
+    "<p>A frame is 1/60 s of simulated time. Mean, p50 and p95 are over the frames, each the "
+    "median "
+    "of the repeats; p99 and max are over all frames of all repeats. Processor time is summed over "
+    "all threads; wall time is elapsed time.</p>\n";
 
 }  // namespace
 
 std::string timing_page(std::span<const Figures> scenes, std::span<const Verdict> verdicts,
-                        std::span<const Change> changes) {
+                        std::span<const Change> changes, const Judgements& judgements) {
   std::string body = kIntroduction;
-  for (const Figures& scene : scenes) body += section(scene, verdicts, changes);
+  for (const Figures& scene : scenes) body += section(scene, verdicts, changes, judgements);
   return html_page({"Sunder: frame timing", body});
 }
 

@@ -67,7 +67,9 @@ std::string timing_table(std::span<const Figures> scenes) {
     for (const std::string stage : kStageNames) {
       text += stage_row(scene, stage, "/stages/" + stage + "/");
     }
-    text += stage_row(scene, "frame", "/frame/") + "  " + counts_line(scene) + "\n";
+    text += stage_row(scene, "frame", "/frame/");
+    if (scene.contains("/draw/every")) text += stage_row(scene, "draw", "/draw/");
+    text += "  " + counts_line(scene) + "\n";
   }
   return text;
 }
@@ -90,7 +92,7 @@ std::string verdict_lines(std::span<const Verdict> verdicts, bool failed) {
   std::string text;
   for (const Verdict& verdict : verdicts) {
     if ((verdict.outcome == Outcome::kFailed) != failed) continue;
-    if (!failed && verdict.what.starts_with("stage ")) continue;
+    if (!failed && verdict.what.starts_with(kFigure)) continue;
     text += (failed ? "failed: " : "") + verdict.scene + ", " + verdict.what + ": " + verdict.text +
             "\n";
   }

@@ -25,7 +25,7 @@ ln -s "$root/scenes" "$folder/scenes"
 
 run() {
   (cd "$folder" && NEW=build/sunder OLD=$program SCENES=scenes/stacks/stack.toml GOLDENS=stack \
-    FRAMES=5 REPEATS=1 SEEDS=1 SLOWER=100000% examples/ci/pipeline.sh >"$folder/log" 2>&1)
+    FRAMES=5 REPEATS=9 SEEDS=1 SLOWER=1000000% examples/ci/pipeline.sh >"$folder/log" 2>&1)
 }
 
 run || fail "the pipeline fails on one program as old and new"

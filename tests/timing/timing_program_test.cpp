@@ -32,7 +32,6 @@ class Bench : public testing::Test {
     for (auto& stage : scene["stages"]) {
       for (auto& figure : stage) figure = 1.0;
     }
-    scene.erase("repeat_ms");
     for (auto& figure : scene["frame"]) figure = 7.0;
     write("old");
   }
@@ -68,25 +67,62 @@ TEST_F(Bench, OneDifferentBitOfTheStateFails) {
   EXPECT_NE(outcome.err.find("failed: fall, state: "), std::string::npos) << outcome.err;
 }
 
-TEST_F(Bench, ASlowdownOfATenthFailsAtFivePercent) {
+TEST_F(Bench, TwoFilesAreComparedAndNotJudged) {
   for (const std::string clock : {"cpu_", ""}) {
     for (const std::string figure : {"p50_ms", "mean_ms"}) {
-      scene()["stages"]["solve"][clock + figure] = 1.1;
+      scene()["stages"]["solve"][clock + figure] = 110.0;
     }
   }
   write("planted");
   const std::string compare = "--from " + file("planted") + " --compare " + file("old");
-  const Outcome failed = bench(compare + " --fail-slower 5%");
-  EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_NE(failed.err.find("failed: fall, stage solve: "), std::string::npos) << failed.err;
-  EXPECT_EQ(bench(compare + " --fail-slower 15%").exit_code, 0);
   const Outcome said = bench(compare);
-  EXPECT_EQ(said.exit_code, 0);
-  EXPECT_NE(said.out.find("slower"), std::string::npos) << said.out;
-  EXPECT_EQ(bench("--from " + file("old") + " --compare " + file("planted") + " --fail-slower 5%")
-                .exit_code,
-            0)
-      << "faster";
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_NE(said.out.find("+10900.0 %"), std::string::npos) << said.out;
+  EXPECT_EQ(said.out.find("slower"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("two files cannot tell"), std::string::npos) << said.out;
+  const Outcome refused = bench(compare + " --fail-slower 5%");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("use --against PROGRAM"), std::string::npos) << refused.err;
+}
+
+TEST_F(Bench, FilesOfAnotherGovernorAreRefused) {
+  scene()["machine"]["governor"] = "another";
+  write("planted");
+  const Outcome outcome = bench("--from " + file("now") + " --compare " + file("planted"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("fall, same machine: times are not comparable: machine/governor is "
+                             "another in "),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(Bench, TheJsonSaysWhatWasBuiltAndWhereItRan) {
+  const Json json = Json::parse(scenes::read_text(file("now")))["scenes"][0];
+  EXPECT_NE(json["commit"], "");
+  for (const char* key : {"compiler", "flags", "processor", "type"})
+    EXPECT_TRUE(json["build"].contains(key)) << key;
+  for (const char* key : {"kernel", "governor", "processors", "instructions", "omp_proc_bind"})
+    EXPECT_NE(json["machine"][key], "") << key;
+  EXPECT_EQ(json["at_once"], 1);
+  EXPECT_GT(json["memory_MB"], 1);
+  EXPECT_EQ(json["state"]["frames"], 12) << "of the whole scene, which is short";
+  EXPECT_NE(sunder("--version").out.find("commit " + json["commit"].get<std::string>()),
+            std::string::npos);
+}
+
+TEST_F(Bench, RunsOfSimulateHaveTheStateOfSoManyFrames) {
+  const auto state = [&](const std::string& options) {
+    EXPECT_EQ(sunder("simulate " + folder_ / "fall.toml" + " --quiet --json " + file("run") + " " +
+                     options)
+                  .exit_code,
+              0);
+    const Json json = Json::parse(scenes::read_text(file("run")));
+    return json.contains("state") ? json["state"]["hash"].get<std::string>() : "none";
+  };
+  EXPECT_EQ(state(""), scene()["state"]["hash"]);
+  EXPECT_EQ(state("--frames 12"), scene()["state"]["hash"]);
+  EXPECT_EQ(state("--frames 11"), "none");
+  EXPECT_NE(state("--set scene.gravity=[0,-9,0]"), scene()["state"]["hash"]);
 }
 
 TEST_F(Bench, ASceneThatTheOlderFileLacksFails) {
@@ -113,7 +149,9 @@ TEST_F(Bench, AnotherProgramIsTimedInTurnsAndCompared) {
   const Outcome same = bench(fall + SUNDER_PROGRAM);
   EXPECT_EQ(same.exit_code, 0) << same.err;
   EXPECT_NE(same.out.find("fall, same run: same state as in"), std::string::npos) << same.out;
-  EXPECT_NE(same.out.find("processor"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("2 pairs of runs, 16 figures: too few repeats to call anything slower"),
+            std::string::npos)
+      << same.out;
 
   std::ofstream(folder_ / "other")
       << "#!/bin/sh\nexec \"" SUNDER_PROGRAM "\" \"$@\" --set scene.gravity=[0,-9,0]\n";
@@ -121,8 +159,59 @@ TEST_F(Bench, AnotherProgramIsTimedInTurnsAndCompared) {
   const Outcome other = bench(fall + folder_ / "other");
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_NE(other.err.find("the state differs"), std::string::npos) << other.err;
+  EXPECT_EQ(other.out.find("pairs of runs"), std::string::npos) << "times are not judged";
   EXPECT_EQ(bench(fall + folder_ / "fall.toml").exit_code, 2) << "no program";
   EXPECT_EQ(bench(fall + "/bin/false").exit_code, 1);
+}
+
+TEST_F(Bench, PairsOfRunsAreJudgedAgainFromTheirFile) {
+  const Outcome timed = bench(folder_ / "fall.toml" + " --repeats 9 --warm-up 0 --against " +
+                              SUNDER_PROGRAM + " --fail-slower 1000000% --json " + file("pairs"));
+  EXPECT_EQ(timed.exit_code, 0) << timed.err;
+  timings_ = Json::parse(scenes::read_text(file("pairs")));
+  Json& memory = scene()["against"]["figures"][15];
+  ASSERT_EQ(memory["what"], "memory") << memory;
+  memory["before"] = std::vector<double>(9, 100.0);
+  memory["now"] = std::vector<double>(9, 111.0);
+  for (std::size_t i = 0; i < 15; ++i) {
+    Json& figure = scene()["against"]["figures"][i];
+    figure["now"] = figure["before"] = std::vector<double>(9, 1.0);
+  }
+  write("planted");
+  const Outcome failed = bench("--from " + file("planted") + " --fail-slower 10%");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_EQ(failed.err,
+            "failed: fall, figure memory peak: 100 MB before, 111 now; change +11.0 "
+            "to +11.0 %, slower by more than 10 %\n");
+  EXPECT_EQ(bench("--from " + file("planted") + " --fail-slower 12%").exit_code, 0);
+  EXPECT_EQ(bench("--from " + file("planted") + " --fail-slower 10%,memory=12%").exit_code, 0);
+  EXPECT_NE(bench("--from " + file("planted")).out.find("slower"), std::string::npos);
+}
+
+TEST_F(Bench, AGateThatCouldNeverFailIsRefused) {
+  const Outcome few = bench(folder_ / "fall.toml" + " --repeats 8 --against " + SUNDER_PROGRAM +
+                            " --fail-slower 5%");
+  EXPECT_EQ(few.exit_code, 2);
+  EXPECT_NE(few.err.find("--repeats 8: too few for --fail-slower, which judges up to 16 figures"),
+            std::string::npos)
+      << few.err;
+  EXPECT_NE(few.err.find("give --repeats 9 or more"), std::string::npos) << few.err;
+  const Outcome none = bench("--from " + file("now") + " --fail-slower 5%");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("has no pairs of runs"), std::string::npos) << none.err;
+}
+
+TEST_F(Bench, FramesAreDrawnAndTheirTimesReported) {
+  const Outcome outcome =
+      bench(folder_ / "fall.toml" + " --repeats 1 --warm-up 0 --draw 5 --json " + file("drawn") +
+            " --against " + SUNDER_PROGRAM);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json json = Json::parse(scenes::read_text(file("drawn")))["scenes"][0];
+  EXPECT_EQ(json["draw"]["pictures"], 2) << "frames 5 and 10";
+  EXPECT_GT(json["per_frame"][4]["draw_ms"], 0);
+  EXPECT_FALSE(json["per_frame"][5].contains("draw_ms"));
+  EXPECT_NE(outcome.out.find("draw mean"), std::string::npos) << outcome.out;
+  EXPECT_EQ(json["state"]["hash"], scene()["state"]["hash"]) << "drawing changes no state";
 }
 
 TEST_F(Bench, KeepsAndReportsFinishedRepeatsWhenStopped) {
@@ -202,8 +291,10 @@ TEST_F(Bench, WrongUseExitsWithTwoAndAMessage) {
   std::ofstream(folder_ / "no.json") << "{";
   const std::string from = "--from " + file("now");
   for (const std::string& wrong : std::vector<std::string>{
-           from + " --fail-slower 5%", from + " --compare " + file("old") + " --fail-slower ten",
-           from + " --accept", from + " --features", from + " stack",
+           from + " --fail-slower 5%", "stack --fail-slower 5%",
+           "stack --fail-slower ten --against " + std::string(SUNDER_PROGRAM),
+           "stack --fail-slower 5%,solve=3% --against " + std::string(SUNDER_PROGRAM),
+           from + " --draw 5", from + " --accept", from + " --features", from + " stack",
            from + " --compare " + file("bad"), from + " --compare " + file("no"),
            "--from " + file("nowhere"), "nowhere", "stack stack --frames 1", "stack --repeats 0",
            folder_ / "fall.toml" + " --frames 5 --repeats 1 --warm-up 0 --accept",

@@ -1,9 +1,4 @@
-// Tests of timed runs and of reports on several of them.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
+// Tests of reports on several timed runs.
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
@@ -17,54 +12,6 @@ namespace {
 
 using tests::made_up_timings;
 
-/// A ball that falls for a fifth of a second.
-class Fall : public testing::Test {
- protected:
-  Fall() {
-    std::ofstream(file_) << "[scene]\ndescription = \"x\"\nduration_s = 0.2\n[[ball]]\n"
-                            "position = [0, 5, 0]\n";
-  }
-  ~Fall() override { std::filesystem::remove(file_); }
-
-  Figures run(int frames, const std::vector<std::string>& set = {}) const {
-    TimedRun run;
-    run.scene = file_;
-    run.load.set = set;
-    run.frames = frames;
-    return time_run(run, false);
-  }
-
- private:
-  std::string file_ = (std::filesystem::temp_directory_path() /
-                       ("sunder-fall-" + std::to_string(getpid()) + ".toml"))
-                          .string();
-};
-
-TEST_F(Fall, HasTheFiguresOfEveryStageByBothClocks) {
-  const Figures figures = run(5);
-  for (const std::string stage : kStageNames) {
-    for (const std::string figure : {"p50_ms", "p95_ms", "p99_ms", "max_ms", "mean_ms"}) {
-      EXPECT_TRUE(figures.contains("/stages/" + stage + "/" + figure));
-      EXPECT_TRUE(figures.contains("/stages/" + stage + "/cpu_" + figure));
-    }
-    EXPECT_TRUE(figures.contains("/per_frame/4/stages_cpu_ms/" + stage));
-  }
-  EXPECT_GT(number_at(figures, "/frame/cpu_mean_ms"), 0);
-  EXPECT_GT(number_at(figures, "/memory_MB"), 1);
-  EXPECT_EQ(number_at(figures, "/peak/bodies"), 1);
-}
-
-TEST_F(Fall, TheStateHashIsOfAFixedNumberOfFrames) {
-  const Figures whole = run(1000), again = run(12), shorter = run(11);
-  EXPECT_EQ(number_at(whole, "/frames"), 12) << "to the end of the scene";
-  EXPECT_EQ(number_at(whole, "/state/frames"), 12);
-  EXPECT_EQ(text_at(whole, "/state/hash"), text_at(again, "/state/hash"));
-  EXPECT_FALSE(shorter.contains("/state/hash"));
-  const Figures other = run(12, {"scene.gravity=[0, -9, 0]"});
-  EXPECT_NE(text_at(other, "/state/hash"), text_at(again, "/state/hash"));
-  EXPECT_EQ(text_at(other, "/set/0"), "scene.gravity=[0, -9, 0]");
-}
-
 TEST(MedianOf, TakesTheMedianOfEveryNumber) {
   std::vector<Figures> runs = {made_up_timings("house", 3), made_up_timings("house", 1),
                                made_up_timings("house", 2)};
@@ -77,22 +24,36 @@ TEST(MedianOf, TakesTheMedianOfEveryNumber) {
   EXPECT_EQ(std::get<bool>(median_of(runs).at("/differs")), true);
 }
 
-TEST(MedianOf, AnOutlierInAFrameOfOneRunChangesNothing) {
+TEST(MedianOf, AnOutlierInAFrameOfOneRunChangesTheExtremesAndNothingElse) {
   std::vector<Figures> runs(3, made_up_timings("house", 1));
   for (std::size_t i = 0; i < 3; ++i) {
     for (const char* clock : {"stages_ms", "stages_cpu_ms"}) {
       const std::string frame = std::to_string(50 + 40 * i);
-      runs[i]["/per_frame/" + frame + "/" + clock + "/solve"] = 1000.0;
+      runs[i]["/per_frame/" + frame + "/" + clock + "/solve"] = 1000.0 + static_cast<double>(i);
       runs[i]["/per_frame/" + std::to_string(7) + "/" + clock + "/solve"] = 3.0;
     }
     runs[i]["/frame/cpu_mean_ms"] = runs[i]["/stages/solve/cpu_mean_ms"] = 6.0;
-    runs[i]["/stages/solve/max_ms"] = 1000.0;
   }
   const Figures median = median_of(runs);
   EXPECT_DOUBLE_EQ(number_at(median, "/stages/solve/cpu_mean_ms"), (199 + 3) / 200.0);
-  EXPECT_EQ(number_at(median, "/stages/solve/max_ms"), 3) << "slow in every run";
-  EXPECT_EQ(number_at(median, "/frame/max_ms"), kStages - 1 + 3);
+  EXPECT_EQ(number_at(median, "/stages/solve/p95_ms"), 1);
+  EXPECT_EQ(number_at(median, "/stages/solve/p99_ms"), 1) << "6 of 600 frames are slower";
+  EXPECT_EQ(number_at(median, "/stages/solve/max_ms"), 1002);
+  EXPECT_EQ(number_at(median, "/frame/max_ms"), kStages - 1 + 1002);
   EXPECT_DOUBLE_EQ(number_at(median, "/frame/cpu_mean_ms"), (199.0 * kStages + kStages + 2) / 200);
+  runs[1]["/per_frame/9/stages_ms/solve"] = 500.0;
+  EXPECT_EQ(number_at(median_of(runs), "/stages/solve/p99_ms"), 3) << "7 of 600 frames are slower";
+}
+
+TEST(MedianOf, HasTheTimesOfDrawing) {
+  std::vector<Figures> runs(3, made_up_timings("house", 1));
+  for (std::size_t i = 0; i < 3; ++i) {
+    runs[i]["/per_frame/99/draw_ms"] = 10.0 + static_cast<double>(i);
+    runs[i]["/per_frame/199/draw_ms"] = 20.0;
+  }
+  const Figures median = median_of(runs);
+  EXPECT_DOUBLE_EQ(number_at(median, "/draw/mean_ms"), (11 + 20) / 2.0);
+  EXPECT_DOUBLE_EQ(number_at(median, "/draw/max_ms"), 20);
 }
 
 TEST(Document, IsReadAsItWasWritten) {
@@ -130,11 +91,18 @@ TEST(TimingReport, ShowsTheCostOfAFeatureAndIsWellFormed) {
   EXPECT_EQ(savings_of(scene)[0].feature, "dust");
   EXPECT_EQ(savings_of(scene)[0].with_ms - savings_of(scene)[0].without_ms, 1);
   const Verdict verdicts[] = {{"<house>", "state", Outcome::kFailed, "other & wrong"}};
-  const Change changes[] = {{"<house>", "solve", "mean", true, 1, 2}};
-  const std::string page = timing_page(std::span(&scene, 1), verdicts, changes);
+  const Change changes[] = {{"<house>", "solve", "mean", "ms of wall time", 1, 2}};
+  Judgements judgements;
+  judgements.figures.emplace_back().scene = "<house>";
+  judgements.figures.back().pair = {"solve", "p99", "ms of wall time", {2}, {1}};
+  scene["/stalls/longest/0/ms"] = 48.0;
+  const std::string page = timing_page(std::span(&scene, 1), verdicts, changes, judgements);
   EXPECT_EQ(tests::markup_mistake(page), "");
   for (const char* stage : kStageNames) EXPECT_NE(page.find(stage), std::string::npos) << stage;
   EXPECT_NE(page.find("other &amp; wrong"), std::string::npos);
+  EXPECT_NE(page.find("solve p99"), std::string::npos);
+  EXPECT_NE(page.find("too few repeats"), std::string::npos);
+  EXPECT_NE(page.find("took 48.0 ms of wall time"), std::string::npos);
   EXPECT_NE(features_table(std::span(&scene, 1)).find("dust"), std::string::npos);
   EXPECT_EQ(features_table({}), "");
 }
