@@ -23,6 +23,7 @@
 #include "engine/io/bytes.h"
 #include "engine/io/figures.h"
 #include "scenes/app/child_process.h"
+#include "scenes/app/program_copy.h"
 #include "scenes/app/run.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/features.h"
@@ -49,7 +50,8 @@ constexpr const char* kThisProgram = "/proc/self/exe";
 /// A scene to time, maybe without a feature or by another program, and the figures of its repeats.
 struct Timed {
   TimedRun run;
-  bool is_other = false;  ///< Timed by the other program.
+  bool is_other = false;        ///< Timed by the other program.
+  ProgramCopy* copy = nullptr;  ///< Copies of the program, if it is compared; null: run as it is.
   std::vector<Figures> repeats = {};
 };
 
@@ -64,7 +66,7 @@ bool is_at_once(const BenchOptions& options) {
 }
 
 /// Returns the runs of a turn, in order. Loads every scene, to find errors before anything runs.
-std::vector<Timed> timed_runs(const BenchOptions& options) {
+std::vector<Timed> timed_runs(const BenchOptions& options, ProgramCopy* copy, ProgramCopy* other) {
   std::vector<Timed> all;
   std::set<std::string> names;
   for (const std::string& asked : options.scenes) {
@@ -74,8 +76,8 @@ std::vector<Timed> timed_runs(const BenchOptions& options) {
     if (!names.insert(scene.name).second) {
       throw InputError(asked + ": duplicate scene " + scene.name + "; time it in a separate run");
     }
-    all.push_back({run});
-    if (!options.against.empty()) all.push_back({run, true});
+    all.push_back({run, false, copy});
+    if (!options.against.empty()) all.push_back({run, true, other});
     if (!options.features) continue;
     for (const scenes::Feature& feature : scenes::features()) {
       if (!feature.turn_off || feature.state(scene) != "on") continue;
@@ -92,11 +94,10 @@ std::string title_of(const BenchOptions& options, const Timed& timed) {
                                    : timed.run.scene + " without " + timed.run.without;
 }
 
-/// Replaces this process by `sunder simulate`, of this program or of the other, which are called in
-/// the same way, so that nothing but the programs differs. Returns 1 if that fails.
-int exec_program(const BenchOptions& options, const Timed& timed, std::FILE* out,
-                 std::FILE* messages) {
-  const TimedRun& run = timed.run;
+/// Replaces this process by `sunder simulate` of a program. Programs that are compared are called
+/// in the same way, so that nothing else differs. Returns 1 if that fails.
+int exec_program(const BenchOptions& options, const TimedRun& run, const std::string& program,
+                 std::FILE* out, std::FILE* messages) {
   std::vector<std::string> words = {"sunder",    "simulate",
                                     run.scene,   "--quiet",
                                     "--json",    "-",
@@ -112,8 +113,9 @@ int exec_program(const BenchOptions& options, const Timed& timed, std::FILE* out
   arguments.push_back(nullptr);
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // it may be any program
   if (dup2(fileno(out), STDOUT_FILENO) < 0 || dup2(fileno(messages), STDERR_FILENO) < 0) return 1;
-  execv(timed.is_other ? options.against.c_str() : kThisProgram, arguments.data());
-  std::perror("it cannot be started");
+  execv(program.c_str(), arguments.data());
+  std::perror(
+      (program + ": cannot be started; set TMPDIR to a folder of which programs may run").c_str());
   return 1;
 }
 
@@ -153,9 +155,10 @@ void run_once(const BenchOptions& options, std::span<Timed* const> runs, bool wa
   for (const Timed* timed : runs) {
     std::FILE* const out = files.emplace_back(temporary_file()).get();
     std::FILE* const said = messages.emplace_back(temporary_file()).get();
-    works.emplace_back([&options, timed, out, said, processor] {
+    const std::string program = timed->copy ? timed->copy->renew() : kThisProgram;
+    works.emplace_back([&options, timed, program, out, said, processor] {
       if (processor >= 0) pin_to(processor);
-      return exec_program(options, *timed, out, said);
+      return exec_program(options, timed->run, program, out, said);
     });
   }
   const std::vector<ProcessResult> ended = run_in_child(works);
@@ -226,7 +229,12 @@ void put_pairs(const BenchOptions& options, const Timed& now, const Timed& befor
 
 Measured measure(const BenchOptions& options) {
   set_threads(1);  // run_in_child() forks, which a process with threads must not
-  std::vector<Timed> all = timed_runs(options);
+  std::optional<ProgramCopy> copy, other;
+  if (!options.against.empty()) {
+    copy.emplace(kThisProgram);
+    other.emplace(options.against);
+  }
+  std::vector<Timed> all = timed_runs(options, copy ? &*copy : nullptr, other ? &*other : nullptr);
   catch_stop_signals();
   repeat(options, all);
   Measured measured;

@@ -164,6 +164,20 @@ TEST_F(Bench, AnotherProgramIsTimedInTurnsAndCompared) {
   EXPECT_EQ(bench(fall + "/bin/false").exit_code, 1);
 }
 
+TEST_F(Bench, ComparedProgramsRunAsCopiesOfWhichNoneIsLeft) {
+  const std::string temporary = folder_ / "temporary";
+  std::filesystem::create_directory(temporary);
+  const std::string command = "bench " + folder_ / "fall.toml" + " --hashes " +
+                              folder_ / "hashes.txt" + " --repeats 2 --warm-up 0 --against " +
+                              SUNDER_PROGRAM;
+  const Outcome outcome = sunder(command, "TMPDIR=" + temporary + " ");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+  const Outcome nowhere = sunder(command, "TMPDIR=" + folder_ / "nowhere" + " ");
+  EXPECT_EQ(nowhere.exit_code, 1);
+  EXPECT_NE(nowhere.err.find("set TMPDIR to a folder"), std::string::npos) << nowhere.err;
+}
+
 TEST_F(Bench, PairsOfRunsAreJudgedAgainFromTheirFile) {
   const Outcome timed = bench(folder_ / "fall.toml" + " --repeats 9 --warm-up 0 --against " +
                               SUNDER_PROGRAM + " --fail-slower 1000000% --json " + file("pairs"));
