@@ -45,7 +45,7 @@ ProgramCopy::~ProgramCopy() {
 
 std::string ProgramCopy::renew() {
   if (folder_.empty()) return program_.string();
-  const fs::path to = folder_ / "bin" / program_.filename();
+  const fs::path to = folder_ / "bin/sunder";
   std::error_code ignored;
   fs::remove(to, ignored);
   copy_program(folder_ / "program", to);
