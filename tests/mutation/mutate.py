@@ -9,7 +9,6 @@ import json
 import os
 import re
 import resource
-import shutil
 import signal
 import subprocess
 import sys
@@ -20,6 +19,8 @@ from pathlib import Path
 from draw import draw
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
+from copy_tree import read_sources, write_sources  # noqa: E402
 FOLDERS = ("solver", "fracture", "engine/world")
 MEMORY_BYTES = 6 << 30  # limit of a test program: a mutant may fill vectors without end
 LABELS = ("unit", "property", "truth", "extreme")
@@ -33,10 +34,7 @@ class Tree:
 
     def __init__(self, work):
         self.source, self.build = work / "tree", work / "tree" / "build"
-        listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT,
-                                check=True, capture_output=True, text=True).stdout.splitlines()
-        self.texts = {name: (ROOT / name).read_bytes() for name in listed
-                      if (ROOT / name).is_file()}
+        self.texts = read_sources(ROOT)
         self.programs = find_programs(self.texts)  # name -> path of its first source
 
     def write(self, mutants):
@@ -48,12 +46,7 @@ class Tree:
             texts[path] = edited(texts[path].decode(), edits).encode()
         for name in self.programs.values():
             texts[name] = FIRST_LINES.format("reach.h").encode() + texts[name]
-        for name, text in texts.items():
-            target = self.source / name
-            if not target.exists() or target.read_bytes() != text:
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(text)
-                shutil.copymode(ROOT / name, target)
+        write_sources(ROOT, texts, self.source)
         meshes = self.source.parent / "shared"
         if (ROOT.parent / "shared").exists() and not meshes.exists():
             meshes.symlink_to(ROOT.parent / "shared")
