@@ -263,6 +263,34 @@ TEST(Statistics, SumsEnergyFlowsAndTheirResidual) {
   EXPECT_EQ(json["per_frame"][0]["energy_flows_J"]["friction"], 10);
 }
 
+// Frame i takes i ms; the first is the initial one, which takes no time.
+TEST(Statistics, OfARunAreItsPercentilesItsTotalsAndItsFirstAndLastMass) {
+  Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {}, {64, 1, 8}});
+  for (std::uint32_t i = 0; i <= 200; ++i) {
+    auto frame = std::make_shared<Frame>();
+    frame->report.stage_ms[static_cast<int>(Stage::kSolve)] = i;
+    frame->report.mass_kg = 1000 - i;
+    frame->report.counts.bodies = i <= 150 ? i : 300 - i;
+    if (i > 0) frame->report.carried_over = frame->report.limits_hit = 3;
+    statistics.take(frame);
+  }
+  const auto json = nlohmann::json::parse(statistics.json("", false));
+  for (const auto& times : {json["frame"], json["stages"]["solve"]}) {
+    EXPECT_EQ(times["p50_ms"], 100);
+    EXPECT_EQ(times["p95_ms"], 190);
+    EXPECT_EQ(times["p99_ms"], 198);
+    EXPECT_EQ(times["max_ms"], 200);
+    EXPECT_EQ(times["mean_ms"], 100.5);
+  }
+  EXPECT_EQ(json["frames"], 200);
+  EXPECT_EQ(json["mass_kg"]["initial"], 1000);
+  EXPECT_EQ(json["mass_kg"]["final"], 800);
+  EXPECT_EQ(json["peak"]["bodies"], 150);
+  EXPECT_EQ(json["counts"]["bodies"], 100);
+  EXPECT_EQ(json["fractures"]["carried_over"], 600);
+  EXPECT_EQ(json["limits_hit"], 600);
+}
+
 TEST(Statistics, WritesTheKeysThatUsersRelyOn) {
   Statistics statistics({"house", "draft", 2, {1.0 / 60, 2}, {{"dust", "off"}}, {64, 1, 8}});
   auto frame = std::make_shared<Frame>(sample_frame());

@@ -291,6 +291,20 @@ TEST(LoadStage, AFrameMayUseTheBudgetThatTheFrameBeforeLeft) {
       << "the unused budget of one frame, and no more";
 }
 
+TEST(LoadStage, AStepOfHalfAFrameHasHalfOfItsBudget) {
+  Scene scene = scene_of(two_boxes(true));
+  scene.limits.load_work_a_frame = 10;
+  std::vector<std::uint64_t> allowed;
+  LoadRun run(scene, [&](const Structure&, const LoadCase& load) {
+    allowed.push_back(load.most_work);
+    StressResult answer;
+    answer.settled = true;
+    return answer;
+  });
+  run.simulation->world().step(1.0 / 120);
+  EXPECT_EQ(allowed, (std::vector<std::uint64_t>{5}));
+}
+
 TEST(LoadStage, PassesTheStressCacheBack) {
   struct Marked final : StressCache {};
   const auto memory = std::make_shared<const Marked>();

@@ -7,6 +7,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
 #include "engine/base/random.h"
+#include "solver/particles/crumble.h"
 #include "solver/particles/debris_and_dust.h"
 #include "tests/particles/particles_fixtures.h"
 
@@ -109,6 +110,31 @@ TEST(Particles, ComeFromAFaceByItsDensityAndRatio) {
   }
   EXPECT_NEAR(mean.x(), 0, 0.05);
   EXPECT_NEAR(mean.z(), 0, 0.05);
+}
+
+// The dust of a face accelerates the air by its mass.
+TEST(Particles, TheDustOfAFaceIsAsHeavyWhateverTheRatioOfDebris) {
+  const auto wind_m_s = [](double debris_ratio) {
+    Debris debris(20000, Vec3::Zero());
+    Dust dust(20000, Vec3::Zero(), Vec3i(32, 16, 32));
+    Random random(5);
+    const TestFace face(Vec3(0, 3, 0), 2);
+    ExposedPolygon emission = face.emission(crumbling_of(4000, debris_ratio));
+    emission.crumbling.dust_kg_m2 = 0.1;
+    emission.opening_speed_m_s = 10;
+    crumble(emission, {}, random, debris, dust);
+    dust.advance(kDt, TestObstacles().view());
+    float sum_m_s = 0;  // below the face, on a grid of 7 by 7 points
+    for (int i = 0; i < 49; ++i) {
+      const Vec3f below(0.2f * float(i % 7 - 3), 2.9f, 0.2f * float(i / 7 - 3));
+      sum_m_s -= dust.air()->velocity(below).y();
+    }
+    return sum_m_s / 49;
+  };
+  const float of_dust_alone = wind_m_s(0);
+  EXPECT_GT(of_dust_alone, 0.01f);
+  for (const double ratio : {0.25, 0.75})
+    EXPECT_NEAR(wind_m_s(ratio), of_dust_alone, 0.2f * of_dust_alone) << ratio;
 }
 
 TEST(Particles, ComeFromEveryFaceEvenAtTheLimit) {

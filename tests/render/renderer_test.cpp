@@ -455,12 +455,16 @@ TEST(Renderer, AnEmptyWorldIsGroundUnderSky) {
 TEST(Renderer, TheHudIsWrittenInTheCornerOnly) {
   SyntheticFrame s;
   RenderOptions options = small();
-  options.hud = true;
-  const Image with = Renderer(options).draw(s.frame);
-  const Image without = renderer().draw(s.frame);
-  EXPECT_NE(with, without);
-  for (int y = 72; y < 180; y += 7) {
-    for (int x = 0; x < 320; x += 7) ASSERT_EQ(pixel(with, x, y), pixel(without, x, y));
+  for (const int samples : {1, 2}) {
+    options.samples = samples;
+    options.hud = true;
+    const Image with = Renderer(options).draw(s.frame);
+    options.hud = false;
+    const Image without = Renderer(options).draw(s.frame);
+    EXPECT_NE(with, without) << samples;
+    for (int y = 72; y < 180; y += 7) {
+      for (int x = 0; x < 320; x += 7) ASSERT_EQ(pixel(with, x, y), pixel(without, x, y));
+    }
   }
 }
 

@@ -156,6 +156,54 @@ TEST(BadKeys, AWrongValueIsRefusedWithItsLineAndTheAllowedValues) {
   EXPECT_GT(tried, 250u);
 }
 
+// The limits of keys are tested above against themselves; here against what exists.
+TEST(BadKeys, LimitsAllowWhatExistsAndNothingImpossible) {
+  struct Values {
+    std::string header, key;
+    std::vector<std::string> real, impossible;
+  };
+  const std::string material = "[[material]]\nname = \"brick\"\n";
+  const std::string web = material + "[material.pattern]\nkind = \"web\"\n";
+  const std::string dust = material + "[material.crumbling]\n";
+  const std::string blast = "[[script.blast]]\ntime_s = 1\nat = [0, 1, 0]\n";
+  for (const Values& values : std::vector<Values>{
+           // Aerogel, osmium.
+           {material, "density_kg_m3", {"1.5", "22600"}, {"0", "-1"}},
+           // Ice on ice, rubber on rock.
+           {material, "friction", {"0.02", "1.5"}, {"-0.1"}},
+           {material, "restitution", {"0", "1"}, {"-0.1", "1.1"}},
+           {material, "rolling", {"0", "0.3"}, {"-0.1"}},
+           // Soft rubber, diamond.
+           {material, "youngs_Pa", {"1e5", "1.2e12"}, {"0", "-1"}},
+           {material, "tensile_Pa", {"0", "6e10"}, {"-1"}},
+           {material, "reinforcement_percent", {"0", "4"}, {"-1", "101"}},
+           {web, "spokes", {"3", "40"}, {"2", "-1"}},
+           {web, "rings", {"1", "20"}, {"0"}},
+           {web, "jitter", {"0", "1"}, {"-0.1", "1.1"}},
+           {dust, "debris_ratio", {"0", "1"}, {"-0.1", "1.1"}},
+           // Weightlessness, the surface of Jupiter, a ceiling.
+           {"", "gravity", {"[0, 0, 0]", "[0, -24.8, 0]", "[0, 9.81, 0]"}, {"[0, inf, 0]"}},
+           {"", "duration_s", {"0.1", "60"}, {"0", "-1"}},
+           {blast, "tnt_kg", {"0.1", "1000"}, {"-1"}},
+       }) {
+    const bool of_scene = values.header.empty();
+    const auto message = [&](const std::string& value) {
+      const std::string line = values.key + " = " + value + "\n";
+      try {
+        parse_scene("[scene]\ndescription = \"x\"\n" + (of_scene ? line : values.header + line),
+                    "bad.toml", {});
+      } catch (const InputError& error) {
+        return std::string(error.what());
+      }
+      return std::string();
+    };
+    for (const std::string& value : values.real) EXPECT_EQ(message(value), "");
+    for (const std::string& value : values.impossible)
+      EXPECT_NE(message(value).find("; allowed: "), std::string::npos)
+          << values.key << " " << value;
+  }
+}
+
 TEST(BadKeys, AMissingRequiredKeyIsNamed) {
   for (const Sample& sample : samples()) {
     for (const Key& key : sample.keys) {

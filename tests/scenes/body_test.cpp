@@ -174,6 +174,25 @@ TEST_F(Bodies, TheEntriesUsedLongestAgoLeaveTheCache) {
   EXPECT_TRUE(load_cached(2));
 }
 
+TEST_F(Bodies, OfOtherOptionsOrAnotherMeshAreNotTakenFromTheCache) {
+  const auto textured = [](const std::string& first_uv) {
+    return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt " + first_uv +
+           "\nvt 1 0\nvt 0 1\nf 1/1 3/3 2/2\nf 1/1 2/2 4/3\nf 1/1 4/3 3/2\nf 2/1 3/2 4/3\n";
+  };
+  write("a.obj", textured("0 0"));
+  write("b.obj", textured("0.5 0.5"));
+  std::size_t entries = 0;
+  for (const std::string options :
+       {"mesh = \"a.obj\"\nnodes = 3\n", "mesh = \"b.obj\"\nnodes = 3\n",
+        "mesh = \"a.obj\"\nnodes = 4\n", "mesh = \"a.obj\"\nnodes = 3\nsize_m = 2\n",
+        "mesh = \"a.obj\"\nnodes = 3\nconvexes = 5\n",
+        "mesh = \"a.obj\"\nnodes = 3\nfit = \"box\"\n",
+        "mesh = \"a.obj\"\nnodes = 3\nrepair = \"off\"\n"}) {
+    load("[[body]]\n" + options);
+    EXPECT_EQ(cached_files().size(), ++entries) << options;
+  }
+}
+
 TEST_F(Bodies, ADamagedCacheEntryIsReplaced) {
   write("box.obj", box_obj({0, 0, 0}, {1, 2, 3}));
   const std::string lines = "[[body]]\nmesh = \"box.obj\"\nnodes = 4\n";

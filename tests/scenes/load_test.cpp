@@ -123,6 +123,26 @@ TEST(Load, ShotsAreInOrderOfTimeAndAimed) {
   EXPECT_EQ(scene.shots[1].ball.velocity_W, Vec3(1, 2, 3));
 }
 
+TEST(Load, ActionsOfEveryKindAreInOrderOfTime) {
+  const auto twice = [](const std::string& header, const std::string& keys) {
+    return header + "\ntime_s = 2\n" + keys + header + "\ntime_s = 1\n" + keys;
+  };
+  const Scene scene = scene_of(
+      "[[ball]]\nname = \"x\"\n" +
+      twice("[[script.shot]]", "from = [0, 0, 0]\nvelocity = [1, 0, 0]\n") +
+      twice("[[script.blast]]", "at = [0, 1, 0]\n") + twice("[[script.remove]]", "name = \"x\"\n") +
+      twice("[[script.drive]]", "name = \"x\"\nvelocity = [1, 0, 0]\n"));
+  const auto expect_sorted = [](const auto& actions) {
+    ASSERT_EQ(actions.size(), 2u);
+    EXPECT_EQ(actions[0].time_s, 1);
+    EXPECT_EQ(actions[1].time_s, 2);
+  };
+  expect_sorted(scene.shots);
+  expect_sorted(scene.blasts);
+  expect_sorted(scene.removals);
+  expect_sorted(scene.drives);
+}
+
 TEST(Load, FlagsChangeGivenKeysAndAddOthers) {
   LoadOptions options;
   options.set = {"scene.seed=7", "ground.friction=0.25", "ball.1.position=[1, 2, 3]",

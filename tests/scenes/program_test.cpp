@@ -245,12 +245,14 @@ TEST(Program, RenderDrawsTheFramesItWasAskedFor) {
   ASSERT_EQ(sunder("simulate stack --frames 4 --quiet --take " + recording).exit_code, 0);
   const auto drawn = [&](const std::string& frames) {
     const std::string pictures = folder / ("frames" + frames + "/");
-    const Outcome outcome = sunder("render " + recording + " --frames " + frames +
-                                   " --size 64x48 --quiet -o " + pictures);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Figures written =
+        figures("render " + recording + " --frames " + frames + " --size 64x48 -o " + pictures);
     std::set<std::string> names;
     for (const auto& picture : std::filesystem::directory_iterator(pictures))
       names.insert(picture.path().stem().string().substr(10));
+    EXPECT_EQ(number_at(written, "/first_frame"), std::stoi(*names.begin()));
+    EXPECT_EQ(number_at(written, "/last_frame"), std::stoi(*names.rbegin()));
+    EXPECT_EQ(number_at(written, "/pictures"), static_cast<double>(names.size()));
     return names;
   };
   using Names = std::set<std::string>;

@@ -244,6 +244,16 @@ TEST(Planar, ATableBearsTheWeightOfABoxAwakeAndAsleep) {
               0.02 * box.mass_kg * kG * dt);
 }
 
+TEST(Planar, SleepsOnlyIfItMay) {
+  for (const bool sleeping : {true, false}) {
+    RigidWorld world = plane(1, sleeping);
+    world.add(W::ground());
+    const BodyId id = world.add(W::box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+    world.run(300, 1.0 / 60, 4);
+    EXPECT_EQ(world.state(id).asleep, sleeping);
+  }
+}
+
 TEST(Planar, MomentumChangesByTheExternalImpulseOnly) {
   RigidWorld world = plane(1, true);
   world.add(W::ground());
