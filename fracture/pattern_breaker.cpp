@@ -10,6 +10,7 @@
 #include "engine/base/roots.h"
 #include "engine/base/trigonometry.h"
 #include "engine/geometry/clip.h"
+#include "engine/geometry/polygon_mesh.h"
 #include "fracture/fracture.h"
 #include "fracture/pattern/cell_limit.h"
 #include "fracture/plug.h"

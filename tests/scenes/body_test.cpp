@@ -186,7 +186,7 @@ TEST_F(Bodies, OfOtherOptionsOrAnotherMeshAreNotTakenFromTheCache) {
        {"mesh = \"a.obj\"\nnodes = 3\n", "mesh = \"b.obj\"\nnodes = 3\n",
         "mesh = \"a.obj\"\nnodes = 4\n", "mesh = \"a.obj\"\nnodes = 3\nsize_m = 2\n",
         "mesh = \"a.obj\"\nnodes = 3\nconvexes = 5\n",
-        "mesh = \"a.obj\"\nnodes = 3\nfit = \"box\"\n",
+        "mesh = \"a.obj\"\nnodes = 3\nfit = \"14dop\"\n",
         "mesh = \"a.obj\"\nnodes = 3\nrepair = \"off\"\n"}) {
     load("[[body]]\n" + options);
     EXPECT_EQ(cached_files().size(), ++entries) << options;
