@@ -29,7 +29,7 @@ std::vector<fs::path> catalog_files(const fs::path& folder) {
 
 /// Returns the description in a scene file, without building the scene.
 std::string description(const fs::path& file) {
-  const Value document = parse_toml(read_text(file), file.string());
+  const Value document = parse_toml(read_text(file, file_kinds::kScene), file.string());
   const Value* scene = find(document, "scene");
   const Value* text = scene ? find(as_table(*scene, "[scene]"), "description") : nullptr;
   const std::string* line = text ? std::get_if<std::string>(&text->data) : nullptr;
@@ -81,7 +81,7 @@ std::vector<CatalogEntry> catalog(const fs::path& folder) {
 Scene load_scene(const std::string& file_or_name, const LoadOptions& options,
                  const fs::path& folder) {
   const fs::path file = scene_file(file_or_name, folder);
-  return parse_scene(read_text(file), file.string(), options);
+  return parse_scene(read_text(file, file_kinds::kScene), file.string(), options);
 }
 
 }  // namespace sunder::scenes

@@ -11,11 +11,21 @@
 
 namespace sunder {
 
-std::vector<std::byte> read_file(const std::filesystem::path& path) {
+void check_file_size(const std::filesystem::path& path, const FileKind& kind) {
+  std::error_code error;
+  const std::uintmax_t size =
+      std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  if (error || size <= kind.most_bytes) return;  // reading it reports the error
+  throw InputError(path.string() + ": has " + std::to_string(size) + " bytes; " + kind.name +
+                   " may have at most " + std::to_string(kind.most_bytes));
+}
+
+std::vector<std::byte> read_file(const std::filesystem::path& path, const FileKind& kind) {
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in || !std::filesystem::is_regular_file(path)) {
     throw InputError(path.string() + ": cannot be read; check the name and permissions");
   }
+  check_file_size(path, kind);
   std::vector<std::byte> bytes(static_cast<std::size_t>(in.tellg()));
   in.seekg(0);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -115,8 +115,32 @@ class ByteReader {
   std::size_t at_ = 0;
 };
 
-/// Returns the content of a file; throws InputError if it cannot be read.
-std::vector<std::byte> read_file(const std::filesystem::path& path);
+/// A kind of file, and how large one may be: so that a wrong file name, or a file made to do so,
+/// does not take all memory.
+struct FileKind {
+  const char* name;  ///< With its article, for messages.
+  std::uint64_t most_bytes;
+};
+namespace file_kinds {
+inline constexpr std::uint64_t kMebibyte = 1u << 20;
+inline constexpr FileKind kAny{"a file that is read whole", 4096 * kMebibyte};
+inline constexpr FileKind kScene{"a scene file", 16 * kMebibyte};
+inline constexpr FileKind kText{"a text file", 16 * kMebibyte};  ///< Nodes, points, hashes.
+inline constexpr FileKind kPattern{"a pattern file", 64 * kMebibyte};
+inline constexpr FileKind kCase{"a case file", 256 * kMebibyte};
+inline constexpr FileKind kFigures{"a JSON file", 64 * kMebibyte};
+inline constexpr FileKind kPicture{"a picture", 256 * kMebibyte};
+inline constexpr FileKind kMesh{"a mesh file", 1024 * kMebibyte};
+inline constexpr FileKind kFrame{"a stored frame", 1024 * kMebibyte};
+inline constexpr FileKind kRun{"a GLB file", 2048 * kMebibyte};
+inline constexpr FileKind kState{"a saved state", 4096 * kMebibyte};
+}  // namespace file_kinds
+
+/// Throws InputError if the file is larger than its kind may be.
+void check_file_size(const std::filesystem::path& path, const FileKind& kind);
+/// Returns the content of a file; throws InputError if it cannot be read or is too large.
+std::vector<std::byte> read_file(const std::filesystem::path& path,
+                                 const FileKind& kind = file_kinds::kAny);
 /// True if a regular file begins with `start`; false also if it cannot be read.
 bool begins_with(const std::filesystem::path& path, std::string_view start);
 /// Returns the XXH3 hash of bytes; equal on every machine.

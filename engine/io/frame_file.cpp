@@ -181,7 +181,7 @@ bool is_stored_frame(const std::filesystem::path& path) {
 
 FramePtr read_frame(const std::filesystem::path& path) {
   const std::string name = path.string();
-  const std::vector<std::byte> file = read_file(path);
+  const std::vector<std::byte> file = read_file(path, file_kinds::kFrame);
   if (file.size() < kHeaderBytes + 8 || std::memcmp(file.data(), kMagic, sizeof kMagic) != 0) {
     throw InputError(name + ": not a frame file of this version of sunder; record it again");
   }

@@ -1,10 +1,12 @@
 #include "fracture/pattern/pattern.h"
 
+#include <filesystem>
 #include <fstream>
 
 #include "engine/base/check.h"
 #include "engine/base/random.h"
 #include "engine/geometry/clip.h"
+#include "engine/io/bytes.h"
 
 namespace sunder::fracture {
 
@@ -120,8 +122,11 @@ Pattern make_cells(const PatternSpec& spec, const PatternScale& scale, std::uint
     case PatternSpec::Kind::kGrid:
       return grid_pattern(spec.cells);
     case PatternSpec::Kind::kFile: {
+      std::error_code error;
+      check_file_size(spec.file, file_kinds::kPattern);
       std::ifstream file(spec.file);
-      if (!file) throw InputError(spec.file + ": cannot be read; give the path of an .obj file");
+      if (!file || !std::filesystem::is_regular_file(spec.file, error))
+        throw InputError(spec.file + ": cannot be read; give the path of an .obj file");
       return read_pattern(file, spec.file);
     }
     case PatternSpec::Kind::kNone:

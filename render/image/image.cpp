@@ -24,6 +24,9 @@ namespace {
 
 constexpr int kChannels = 3;
 constexpr int kMaxDecodedSide = 16384;  // greatest width and height of a decoded picture
+/// Most pixels that a byte of a PNG or JPEG can hold: deflate packs 1032 bytes of 8 pixels into
+/// one.
+constexpr std::uint64_t kMaxPixelsPerByte = 8 * 1032;
 
 void append(void* bytes, void* data, int size) {
   const auto* begin = static_cast<const std::uint8_t*>(data);
@@ -37,8 +40,32 @@ std::size_t count_pixels(const Image& image) {
   return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
 }
 
-void copy_pixels(const Pixels& pixels, Image& image) {
-  image.rgb.assign(pixels.get(), pixels.get() + kChannels * count_pixels(image));
+/// Returns the picture of a PNG or JPEG file, with the alpha that it has if asked; calls refuse()
+/// with the reason if it has no picture.
+template <class Refuse>
+Image decode(std::span<const std::byte> bytes, bool with_alpha, const Refuse& refuse) {
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), 1u << 30));
+  Image image;
+  int channels = 0;
+  if (stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0)
+    refuse(stbi_failure_reason());
+  if (std::max(image.width, image.height) > kMaxDecodedSide) refuse("it is too large");
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  if (pixels / kMaxPixelsPerByte > bytes.size()) refuse("it is truncated");
+  const Pixels decoded(
+      stbi_load_from_memory(data, size, &image.width, &image.height, &channels, kChannels + 1),
+      stbi_image_free);
+  if (!decoded) refuse(stbi_failure_reason());
+  const bool has_alpha = channels == 2 || channels == 4;
+  image.rgb.reserve(kChannels * count_pixels(image));
+  for (std::size_t i = 0; i < count_pixels(image); ++i) {
+    const stbi_uc* const pixel = decoded.get() + (kChannels + 1) * i;
+    image.rgb.insert(image.rgb.end(), pixel, pixel + kChannels);
+    if (with_alpha && has_alpha) image.alpha.push_back(pixel[kChannels]);
+  }
+  return image;
 }
 
 /// Appends a number, highest byte first (big-endian, as in PNG).
@@ -141,41 +168,17 @@ void write_png(const std::filesystem::path& path, const Image16& image) {
 }
 
 Image read_png(const std::filesystem::path& path) {
-  Image image;
-  int channels = 0;
-  const Pixels pixels(
-      stbi_load(path.c_str(), &image.width, &image.height, &channels, kChannels + 1),
-      stbi_image_free);
-  if (!pixels) throw InputError(path.string() + ": not a readable PNG: " + stbi_failure_reason());
-  const bool has_alpha = channels == 2 || channels == 4;
-  const std::size_t size = count_pixels(image);
-  image.rgb.reserve(kChannels * size);
-  for (std::size_t i = 0; i < size; ++i) {
-    const stbi_uc* const pixel = pixels.get() + (kChannels + 1) * i;
-    image.rgb.insert(image.rgb.end(), pixel, pixel + kChannels);
-    if (has_alpha) image.alpha.push_back(pixel[kChannels]);
-  }
-  return image;
+  const std::vector<std::byte> file = read_file(path, file_kinds::kPicture);
+  return decode(file, /*with_alpha=*/true, [&](const std::string& why) {
+    throw InputError(path.string() + ": not a readable PNG: " + why);
+  });
 }
 
 Image decode_picture(std::span<const std::byte> bytes) {
-  const auto refuse = [](const std::string& why) {
+  return decode(bytes, /*with_alpha=*/false, [](const std::string& why) {
     throw InputError("a texture of a mesh cannot be decoded as PNG or JPEG (" + why +
                      "); save it again, or set look = \"material\"");
-  };
-  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-  const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), 1u << 30));
-  Image image;
-  int channels = 0;
-  if (stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0)
-    refuse(stbi_failure_reason());
-  if (std::max(image.width, image.height) > kMaxDecodedSide) refuse("it is too large");
-  const Pixels pixels(
-      stbi_load_from_memory(data, size, &image.width, &image.height, &channels, kChannels),
-      stbi_image_free);
-  if (!pixels) refuse(stbi_failure_reason());
-  copy_pixels(pixels, image);
-  return image;
+  });
 }
 
 }  // namespace sunder::render

@@ -257,7 +257,8 @@ Measured measure(const BenchOptions& options) {
 }
 
 std::vector<Figures> read_timings(const std::string& file) {
-  return scenes::scenes_of(parse_figures(scenes::read_text(file), file), file);
+  return scenes::scenes_of(parse_figures(scenes::read_text(file, file_kinds::kFigures), file),
+                           file);
 }
 
 /// Returns the bounds of --fail-slower; none without the option. Throws InputError if what is asked

@@ -161,7 +161,7 @@ fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOp
     throw InputError(options.mesh +
                      ": a case file contains the break; remove --pattern, --at and --radius");
   }
-  std::istringstream text(scenes::read_text(options.mesh));
+  std::istringstream text(scenes::read_text(options.mesh, file_kinds::kCase));
   fracture::BreakCase example = fracture::read_case(text, options.mesh);
   attempt.solid = scenes::as_mesh_solid(options.mesh, example.compound);
   return example;

@@ -170,7 +170,8 @@ Golden read_golden(const fs::path& folder, const std::string& name) {
     for (const std::string& other : golden_names(folder)) known += " " + other;
     throw InputError(name + ": no such golden; goldens:" + known);
   }
-  const Figures figures = parse_figures(scenes::read_text(file), file.string());
+  const Figures figures =
+      parse_figures(scenes::read_text(file, file_kinds::kFigures), file.string());
   golden.scene = value<std::string>(figures, "/scene", file);
   golden.load.preset = value<std::string>(figures, "/preset", file);
   for (int i = 0; figures.contains("/set/" + std::to_string(i)); ++i) {

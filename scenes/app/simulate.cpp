@@ -55,7 +55,8 @@ World make_world(const SimulateOptions& options, scenes::RunSoFar& so_far) {
   const scenes::SimulationOptions simulation =
       simulation_options({.count_loops = options.count_threads});
   if (!options.resume.empty())
-    return scenes::restore_world(read_file(options.resume), simulation, options.resume, &so_far);
+    return scenes::restore_world(read_file(options.resume, file_kinds::kState), simulation,
+                                 options.resume, &so_far);
   const scenes::TimedRun run{
       .scene = options.scene, .load = options.load, .without = options.without};
   return scenes::make_world(scenes::load_scene(run), simulation);

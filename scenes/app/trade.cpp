@@ -30,7 +30,8 @@ scenes::Study study_of(const TradeOptions& options) {
   study.scenes = options.scenes;
   study.points = options.points.empty()
                      ? scenes::default_points()
-                     : scenes::parse_points(scenes::read_text(options.points), options.points);
+                     : scenes::parse_points(scenes::read_text(options.points, file_kinds::kText),
+                                            options.points);
   for (const std::string& assignment : options.switches) {
     scenes::add_switch(study.points, assignment);
   }

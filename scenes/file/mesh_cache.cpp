@@ -164,7 +164,7 @@ std::optional<MeshSolid> load_cached(std::uint64_t key) {
   if (cache_folder().empty() || !fs::exists(entry(key))) return std::nullopt;
   try {
     const std::string file = entry(key).string();
-    const std::vector<std::byte> bytes = read_file(file);
+    const std::vector<std::byte> bytes = read_file(file, file_kinds::kMesh);
     ByteReader head(bytes, file);
     if (head.take<std::uint64_t>() != key) return std::nullopt;
     const auto hash = head.take<std::uint64_t>();

@@ -226,7 +226,7 @@ fracture::VacdOptions vacd_options(const MeshOptions& options) {
                        ", or a file with x y z on each line");
     }
   } else if (!options.nodes.empty()) {
-    std::istringstream text(read_text(options.nodes));
+    std::istringstream text(read_text(options.nodes, file_kinds::kText));
     vacd.nodes = fracture::read_nodes(text, options.nodes);
   }
   if (options.repair != "auto" && options.repair != "off") {

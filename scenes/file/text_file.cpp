@@ -9,7 +9,8 @@ namespace sunder::scenes {
 
 namespace fs = std::filesystem;
 
-std::string read_text(const fs::path& file) {
+std::string read_text(const fs::path& file, const FileKind& kind) {
+  check_file_size(file, kind);
   std::ifstream in(file, std::ios::binary);
   std::stringstream text;
   if (!fs::is_regular_file(file) || !in || !(text << in.rdbuf())) {

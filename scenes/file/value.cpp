@@ -11,9 +11,15 @@
 #include <toml++/toml.h>
 
 #include "engine/base/check.h"
+#include "scenes/file/toml_depth.h"
 
 namespace sunder::scenes {
 namespace {
+
+[[noreturn]] void refuse_depth(const std::string& where) {
+  throw InputError(where + ": more than " + std::to_string(kMaxTomlDepth) +
+                   " tables and arrays are nested in each other; scene files need no more");
+}
 
 class Converter {
  public:
@@ -73,6 +79,7 @@ bool is_word(std::string_view text) {
 }
 
 Value parse_flag_value(const std::string& text, const std::string& flag) {
+  if (find_too_deep_line(text)) refuse_depth(flag);
   try {
     toml::table parsed = toml::parse("value = " + text);
     Value value = Converter(flag)(*parsed.get("value"));
@@ -161,6 +168,7 @@ std::string describe(const Value& value) {
 }
 
 Value parse_toml(const std::string& text, const std::string& file) {
+  if (const auto line = find_too_deep_line(text)) refuse_depth(file + ":" + std::to_string(*line));
   try {
     const toml::table root = toml::parse(text, file);
     Value document = Converter(file)(root);
@@ -173,13 +181,18 @@ Value parse_toml(const std::string& text, const std::string& file) {
 }
 
 void set_value(Value& document, const std::string& assignment) {
-  const std::string flag = "--set " + assignment;
+  constexpr std::size_t kMostShown = 200;
+  const std::string flag =
+      "--set " +
+      (assignment.size() <= kMostShown ? assignment : assignment.substr(0, kMostShown) + "...");
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == assignment.size()) {
     throw InputError(flag + ": expected key=value, such as script.enabled=false");
   }
+  const std::vector<std::string> steps = split(assignment.substr(0, equals), '.');
+  if (steps.size() > kMaxTomlDepth) refuse_depth(flag);
   Value* place = &document;
-  for (const std::string& step : split(assignment.substr(0, equals), '.')) {
+  for (const std::string& step : steps) {
     if (Array* array = std::get_if<Array>(&place->data)) {
       place = &element(*array, step, flag);
     } else if (Table* table = std::get_if<Table>(&place->data)) {

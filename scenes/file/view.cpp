@@ -44,7 +44,7 @@ void read_view(const Value& document, Scene& scene) {
 }
 
 std::vector<ViewKey> load_view_keys(const std::filesystem::path& file) {
-  const Value document = parse_toml(read_text(file), file.string());
+  const Value document = parse_toml(read_text(file, file_kinds::kScene), file.string());
   const Key only = table_key("key", "");
   check_known(document, "a camera path", {std::span(&only, 1)});
   Keys<ViewKey> keys = schema().view_key;

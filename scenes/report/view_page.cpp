@@ -27,7 +27,7 @@ constexpr std::string_view kUnreadable[] = {"KHR_draco_mesh_compression", "EXT_m
                                             "KHR_texture_basisu"};
 
 std::string read_text(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_file(path);
+  const std::vector<std::byte> bytes = read_file(path, file_kinds::kText);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -87,11 +87,13 @@ void fill_in(std::string_view text, std::ostream& out,
 
 void check_three(const std::filesystem::path& folder) { read_three(folder); }
 
-void check_run(const std::filesystem::path& run) { check_glb(read_file(run), run.string()); }
+void check_run(const std::filesystem::path& run) {
+  check_glb(read_file(run, file_kinds::kRun), run.string());
+}
 
 std::uint64_t write_view_page(const std::filesystem::path& path, const ViewPage& page) {
   const std::string three = read_three(page.three);
-  const std::vector<std::byte> run = read_file(page.run);
+  const std::vector<std::byte> run = read_file(page.run, file_kinds::kRun);
   check_glb(run, page.run.string());
   std::optional<UnfinishedFile> unfinished;
   if (!is_device(path)) unfinished.emplace(path);

@@ -42,7 +42,7 @@ StateHashes parse_hashes(const std::string& text, const std::string& file) {
 
 StateHashes read_hashes(const std::string& file) {
   if (!std::filesystem::exists(file)) return {};
-  return parse_hashes(read_text(file), file);
+  return parse_hashes(read_text(file, file_kinds::kText), file);
 }
 
 std::string format_hashes(const StateHashes& book) {

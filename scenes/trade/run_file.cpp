@@ -102,7 +102,7 @@ bool has_settings(const Figures& stored, const StudyRun& run) {
 }
 
 Figures read_figures(const fs::path& file) {
-  const std::vector<std::byte> bytes = read_file(file);
+  const std::vector<std::byte> bytes = read_file(file, file_kinds::kFigures);
   std::string text(bytes.size(), ' ');
   std::memcpy(text.data(), bytes.data(), bytes.size());
   return parse_figures(text, file.string());

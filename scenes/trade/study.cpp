@@ -81,8 +81,9 @@ std::vector<StudyRun> study_runs(const Study& study) {
                        "; rename the file, because results are stored by name");
     }
     char hash[17];
-    std::snprintf(hash, sizeof hash, "%016llx",
-                  static_cast<unsigned long long>(hash_bytes(read_file(run.scene_file))));
+    std::snprintf(
+        hash, sizeof hash, "%016llx",
+        static_cast<unsigned long long>(hash_bytes(read_file(run.scene_file, file_kinds::kScene))));
     run.scene_hash = hash;
     run.frames = study.frames;
     for (run.seed = 1; run.seed <= study.seeds; ++run.seed) {

@@ -42,6 +42,22 @@ TEST(Png, AFileThatIsNoPngIsRefusedByName) {
   }
 }
 
+// Such a header would take 805 MB before the pixels are found missing.
+TEST(Png, AFileThatIsTooShortForItsPixelsIsRefused) {
+  const TestFolder folder;
+  write_png(folder / "a.png", noise(2, 2));
+  std::fstream file(folder / "a.png", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(16);  // width and height
+  file.write("\0\0\x40\0\0\0\x40\0", 8);
+  file.close();
+  try {
+    read_png(folder / "a.png");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("it is truncated"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Png, AnUnwritablePathIsAnErrorAndLeavesNoFile) {
   const TestFolder folder;
   EXPECT_THROW(write_png("/proc/no/such/folder.png", noise(4, 4)), FileError);

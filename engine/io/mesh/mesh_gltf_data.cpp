@@ -13,6 +13,7 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kMaxJsonDepth = 100;  // nested arrays and objects
 constexpr std::size_t kMaxBytes = std::size_t{1} << 32;
 
 /// Returns a value for an error message, shortened; nested values could be of any size.
@@ -119,7 +120,11 @@ Component component_of(std::size_t type) {
 }  // namespace
 
 GltfData::GltfData(const MeshSource& source) : source_(source) {
-  document_ = json::parse(json_chunk(), nullptr, false);
+  const auto is_shallow = [&](int depth, json::parse_event_t, const json&) {
+    if (depth > kMaxJsonDepth) fail("the JSON is nested too deeply; export the mesh again");
+    return true;
+  };
+  document_ = json::parse(json_chunk(), is_shallow, false);
   if (!document_.is_object())
     fail("not a glTF file: the JSON cannot be parsed; export the mesh again");
   const json::const_iterator buffers = document_.find("buffers");
@@ -190,7 +195,7 @@ std::string GltfData::load_uri(const std::string& reference) const {
   if (std::filesystem::file_size(file, error) > source_.limits.bytes) {
     fail("the buffers are too large; simplify the mesh");
   }
-  const std::vector<std::byte> bytes = read_file(file);
+  const std::vector<std::byte> bytes = read_file(file, file_kinds::kMesh);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 

@@ -112,7 +112,7 @@ RawMesh read_mesh(const std::filesystem::path& file, const MeshLimits& limits) {
     throw InputError(file.string() + ": the file is larger than " + std::to_string(limits.bytes) +
                      " bytes; simplify the mesh");
   }
-  return parse_mesh(read_file(file), format, file, limits);
+  return parse_mesh(read_file(file, file_kinds::kMesh), format, file, limits);
 }
 
 }  // namespace sunder

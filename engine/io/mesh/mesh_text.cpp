@@ -35,7 +35,7 @@ std::optional<std::string> MeshSource::beside(const std::string& name) const {
   std::error_code error;
   if (elsewhere || !std::filesystem::is_regular_file(found, error)) return std::nullopt;
   if (std::filesystem::file_size(found, error) > limits.bytes) return std::nullopt;
-  const std::vector<std::byte> bytes = read_file(found);
+  const std::vector<std::byte> bytes = read_file(found, file_kinds::kMesh);
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
