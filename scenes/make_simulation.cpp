@@ -176,12 +176,15 @@ std::vector<std::byte> save_world(const World& world, const RunSoFar& so_far) {
   return seal(bytes.take());
 }
 
-World restore_world(std::span<const std::byte> bytes, const SimulationOptions& options,
-                    const std::string& name, RunSoFar* so_far) {
-  const std::vector<std::byte> state = unseal(bytes, name);
+namespace {
+
+/// Restores a world from what was sealed, and sets `so_far`, if it is given.
+World restore(std::span<const std::byte> state, const SimulationOptions& options,
+              RunSoFar* so_far) {
   Archive archive(state);
   Scene scene;
   archive(scene);
+  check_scene(scene);
   std::unique_ptr<Particles> particles = make_particles(scene);
   std::unique_ptr<Physics> physics = make_physics(scene);
   const std::shared_ptr<fracture::FailureLog> log = failure_log(scene, options);
@@ -197,6 +200,18 @@ World restore_world(std::span<const std::byte> bytes, const SimulationOptions& o
   if (options.inspect) world.inspect();
   if (options.count_loops) world.count_loops();
   return world;
+}
+
+}  // namespace
+
+World restore_world(std::span<const std::byte> bytes, const SimulationOptions& options,
+                    const std::string& name, RunSoFar* so_far) {
+  const std::vector<std::byte> state = unseal(bytes, name);
+  try {
+    return restore(state, options, so_far);
+  } catch (const InputError& error) {
+    throw InputError(name + ": " + error.what());
+  }
 }
 
 std::unique_ptr<FrameSource> make_simulation(Scene scene, const SimulationOptions& options) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <numeric>
 
+#include "engine/base/state_checks.h"
 #include "engine/geometry/box_distance.h"
 
 namespace sunder {
@@ -93,6 +94,18 @@ Bvh::Bvh(std::span<const Box> boxes) : items_(boxes.size()) {
   if (!boxes.empty()) build(boxes, 0, boxes.size());
   boxes_.reserve(boxes.size());
   for (const std::uint32_t item : items_) boxes_.push_back(boxes[item]);
+}
+
+const char* Bvh::wrong_field() const {
+  if (!are_different_below(items_, items_.size())) return "items_";
+  if (boxes_.size() != items_.size()) return "boxes_";
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    if (node.next <= n || node.next > nodes_.size() || node.first > items_.size() ||
+        node.count > items_.size() - node.first)
+      return "nodes_";
+  }
+  return nullptr;
 }
 
 void Bvh::build(std::span<const Box> boxes, std::size_t first, std::size_t count) {

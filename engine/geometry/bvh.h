@@ -24,6 +24,10 @@ class Bvh {
   bool empty() const { return nodes_.empty(); }
 
   static auto fields(auto& self) { return std::tie(self.nodes_, self.items_, self.boxes_); }
+  /// Returns the number of boxes.
+  std::size_t size() const { return items_.size(); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   struct Node {

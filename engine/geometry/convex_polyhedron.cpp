@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/base/state_checks.h"
 #include "engine/geometry/double_area.h"
 #include "engine/geometry/moments.h"
 
@@ -122,6 +124,18 @@ ConvexPolyhedron transformed(const ConvexPolyhedron& convex, const Pose& X_RQ) {
     face.plane.d -= face.plane.normal.dot(X_RQ.position);
   }
   return moved;
+}
+
+const char* ConvexPolyhedron::wrong_field() const {
+  if (!all_below(corners, vertices.size())) return "corners";
+  if (corner_normals.size() != corners.size()) return "corner_normals";
+  for (const Face& face : faces) {
+    if (face.first_corner > corners.size() || face.corner_count < 3 ||
+        face.corner_count > corners.size() - face.first_corner)
+      return "faces";
+    if (!(std::abs(face.plane.normal.squaredNorm() - 1) < 1e-6)) return "faces";
+  }
+  return empty() || is_closed(*this) ? nullptr : "faces";
 }
 
 bool is_closed(const ConvexPolyhedron& convex) {

@@ -84,6 +84,8 @@ struct ConvexPolyhedron {
   std::span<const std::uint32_t> face_corners(std::size_t f) const {
     return std::span(corners).subspan(faces[f].first_corner, faces[f].corner_count);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 };
 
 /// Returns the bounding box.

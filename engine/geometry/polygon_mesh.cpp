@@ -3,9 +3,27 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/state_checks.h"
 #include "engine/geometry/moments.h"
 
 namespace sunder {
+
+const char* PolygonMesh::wrong_field() const {
+  std::size_t contour = 0, corner = 0;
+  for (const Face& face : faces) {
+    if (face.first_contour != contour || face.contour_count > contours.size() - contour)
+      return "faces";
+    contour += face.contour_count;
+  }
+  if (contour != contours.size()) return "contours";
+  for (const Contour& one : contours) {
+    if (one.first_corner != corner || one.corner_count > corners.size() - corner) return "contours";
+    corner += one.corner_count;
+  }
+  if (corner != corners.size() || !all_below(corners, vertices.size())) return "corners";
+  if (corner_normals.size() != corners.size()) return "corner_normals";
+  return corner_uvs.empty() || corner_uvs.size() == corners.size() ? nullptr : "corner_uvs";
+}
 
 std::size_t first_cap(const PolygonMesh& mesh) {
   std::size_t first = mesh.faces.size();

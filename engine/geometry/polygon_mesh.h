@@ -46,6 +46,8 @@ struct PolygonMesh {
   std::span<const std::uint32_t> contour_corners(std::size_t c) const {
     return std::span(corners).subspan(contours[c].first_corner, contours[c].corner_count);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 };
 
 /// Returns the index of the first cap, or the number of faces if there are no caps.

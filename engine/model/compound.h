@@ -28,6 +28,8 @@ struct Convex {
 
   /// Returns true if the convex is drawn as its polyhedron.
   bool is_internal() const { return !visual; }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const { return polyhedron.empty() ? "polyhedron" : nullptr; }
 };
 using ConvexPtr = std::shared_ptr<const Convex>;
 

@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "engine/base/state_checks.h"
+
 namespace sunder {
 
 /// Returns a block of this store alone.
@@ -18,6 +20,18 @@ MeshStore::Block& MeshStore::changeable(std::size_t block) {
     std::atomic_thread_fence(std::memory_order_acquire);  // after the last read of another thread
   }
   return *shared;
+}
+
+const char* Mesh::wrong_field() const {
+  if (indices.size() % 3 != 0 || !all_below(indices, vertices.size())) return "indices";
+  return uvs.empty() || uvs.size() == vertices.size() ? nullptr : "uvs";
+}
+
+const char* MeshStore::wrong_field() const {
+  if (blocks_.size() != (size_ + kBlock - 1) / kBlock) return "blocks_";
+  for (std::size_t i = size_; i < blocks_.size() * kBlock; ++i)
+    if (blocks_.back() && (*blocks_.back())[i % kBlock]) return "size_";
+  return nullptr;
 }
 
 void MeshStore::push_back(Pointer mesh) {

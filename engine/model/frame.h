@@ -42,6 +42,9 @@ struct Mesh {
   std::vector<Eigen::Vector2f> uvs;
   std::vector<std::uint32_t> indices;  ///< Triangles, counter-clockwise seen from outside.
   MaterialIndex material;
+
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 };
 
 struct MeshTag;
@@ -82,6 +85,8 @@ class MeshStore {
   }
   /// Returns the fields, for saved states.
   static auto fields(auto& self) { return std::tie(self.blocks_, self.size_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   static constexpr std::size_t kBlock = 64;

@@ -98,6 +98,7 @@ using JointId = Id<JointTag>;
 /// A joint between two bodies, or between a body and the world. Points and directions are in the
 /// rest frame R of their body, or in W for the world.
 struct JointDesc {
+  static constexpr bool kMayBeInfinite = true;  ///< For saved states: breaking_N, breaking_Nm.
   using Kind = JointKind;
   Kind kind = Kind::kBall;
   BodyId a, b;  ///< none(): the world.
@@ -118,6 +119,21 @@ struct JointDesc {
   /// shapes of the other body collide with no static body at all: the foot of a post does not
   /// collide with the ground around it.
   std::vector<std::uint32_t> quiet_a, quiet_b;
+};
+
+/// The bodies and joints of a physics, with what their owner gave them.
+struct PhysicsContents {
+  struct Body {
+    BodyId id;
+    std::uint32_t tag = 0;
+    std::vector<std::uint32_t> shape_tags;  ///< Ascending.
+  };
+  struct Joint {
+    JointId id;
+    JointKind kind = JointKind::kBall;
+  };
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
 };
 
 /// A contact that closes, or that would close within the step (speculative contact). Sorted by a
@@ -240,6 +256,8 @@ class Physics {
   virtual void archive(Archive& /*bytes*/) {
     throw InputError("the state of this solver cannot be saved");
   }
+  /// Returns all bodies and joints, to check a state that was read.
+  virtual PhysicsContents contents() const { return {}; }
   /// Removes bodies, then adds bodies; returns the new ids in the order of `add`. Neighbours of
   /// removed bodies are woken.
   virtual std::vector<BodyId> replace(std::span<const BodyId> remove,

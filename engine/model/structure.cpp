@@ -1,12 +1,14 @@
 #include "engine/model/structure.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/check.h"
+#include "engine/base/state_checks.h"
 #include "engine/model/breaker.h"
 
 namespace sunder {
@@ -49,6 +51,50 @@ void Structure::unlink(const Bond& bond) {
   };
   bonds_ -= std::erase_if(slots_[bond.a].links, is_link(bond.b, bond.face_a, bond.face_b));
   std::erase_if(slots_[bond.b].links, is_link(bond.a, bond.face_b, bond.face_a));
+}
+
+const char* Structure::wrong_field() const {
+  std::size_t size = 0, anchored = 0, ends = 0;
+  for (std::uint32_t s = 0; s < slot_count(); ++s) {
+    const Slot& slot = slots_[s];
+    if (!slot.convex) {
+      if (!slot.links.empty() || !slot.ghosts.empty()) return "slots_";
+      continue;
+    }
+    ++size;
+    anchored += slot.anchored != 0;
+    ends += slot.links.size();
+    if (slot.anchored > kAnchoredAllSides) return "slots_";
+    for (const Link& link : slot.links) {
+      if (!has(link.other) || link.other.value == s ||
+          link.face >= slot.convex->polyhedron.faces.size() || !(link.area_m2 >= 0))
+        return "slots_";
+      const auto is_back = [&](const Link& back) {
+        return back.other.value == s && back.face == link.other_face &&
+               back.other_face == link.face;
+      };
+      if (std::ranges::count_if(slots_[link.other.value].links, is_back) != 1) return "slots_";
+    }
+    for (const std::uint32_t ghost : slot.ghosts)
+      if (ghost >= ghosts_.size() || std::ranges::count(ghosts_[ghost].of, s) != 1) return "slots_";
+    if (!std::ranges::is_sorted(slot.ghosts, std::less_equal())) return "slots_";
+  }
+  for (std::uint32_t g = 0; g < ghosts_.size(); ++g) {
+    if (ghosts_[g].of.empty() == (ghosts_[g].convex != nullptr)) return "ghosts_";
+    for (const std::uint32_t slot : ghosts_[g].of)
+      if (!has(ConvexSlot(slot)) || !std::ranges::binary_search(slots_[slot].ghosts, g))
+        return "ghosts_";
+  }
+  std::vector<ConvexSlot> indexed;
+  for (const Level& level : levels_) {
+    if (level.slots.size() != level.tree.size()) return "levels_";
+    for (const ConvexSlot slot : level.slots)
+      if (has(slot)) indexed.push_back(slot);
+  }
+  if (indexed.size() != size || !are_different_below(indexed, slots_.size())) return "levels_";
+  if (size_ != size) return "size_";
+  if (anchored_ != anchored) return "anchored_";
+  return 2 * bonds_ == ends ? nullptr : "bonds_";
 }
 
 void Structure::add_ghost(Ghost ghost) {

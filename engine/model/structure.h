@@ -87,6 +87,8 @@ class Structure {
     return std::tie(self.slots_, self.ghosts_, self.levels_, self.size_, self.anchored_,
                     self.bonds_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   struct Slot {

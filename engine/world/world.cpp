@@ -18,6 +18,7 @@
 #include "engine/model/physics.h"
 #include "engine/model/work_log.h"
 #include "engine/world/act/act_stage.h"
+#include "engine/world/actors/check_state.h"
 #include "engine/world/actors/hinges.h"
 #include "engine/world/actors/landscape.h"
 #include "engine/world/actors/make_actor.h"
@@ -153,10 +154,17 @@ struct World::Parts {
           world.landscape, world.log, world.next_event, world.smallest_piece_factor, world.exposed);
     world.physics->archive(bytes);
     for (Actor& actor : world.actors) parts.breaker->archive(bytes, actor.stress.memory);
-    bytes(parts.act, parts.breaks, parts.loads, parts.particles, parts.inspects,
-          parts.least_hit_m_s, parts.known);
+    bytes(parts.act, parts.breaks, parts.loads, parts.particles, parts.inspects, parts.known);
+    bytes.infinite(parts.least_hit_m_s);
     archive_without_times(bytes, parts.report);
     archive_without_times(bytes, parts.events);
+    if (!bytes.reads()) return;
+    bytes.refuse_field<WorldState>(wrong_field(world));
+    bytes.refuse_field<ActStage>(parts.act.wrong_field(world));
+    bytes.refuse_field<BreakStage>(parts.breaks.wrong_field(world));
+    bytes.refuse_field<ParticleStage>(parts.particles.wrong_field(world));
+    if (world.exposed.has_value() != parts.particles.any())
+      bytes.refuse_field<WorldState>("exposed");
   }
 };
 

@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "engine/base/state_checks.h"
+
 namespace sunder::fracture {
 namespace {
 
@@ -125,6 +127,25 @@ BlockCholesky::BlockCholesky(std::size_t nodes, std::span<const Pair> pairs) : p
   }
   columns_.push_back(static_cast<std::uint32_t>(rows_.size()));
   blocks_.assign(rows_.size(), Columns{});
+}
+
+const char* BlockCholesky::wrong_field() const {
+  const std::size_t count = nodes();
+  if (!are_different_below(order_, count)) return "order_";
+  if (place_.size() != count) return "place_";
+  for (std::size_t place = 0; place < count; ++place)
+    if (place_[order_[place]] != place) return "place_";
+  if (columns_.size() != (columns_.empty() ? 0 : count + 1)) return "columns_";
+  if (columns_.empty()) return count == 0 && rows_.empty() ? nullptr : "columns_";
+  if (columns_[0] != 0 || columns_.back() != rows_.size()) return "columns_";
+  if (blocks_.size() != rows_.size()) return "blocks_";
+  for (std::size_t k = 0; k < count; ++k) {
+    if (columns_[k] >= columns_[k + 1] || columns_[k + 1] > rows_.size()) return "columns_";
+    if (rows_[columns_[k]] != k) return "rows_";
+    for (std::size_t i = columns_[k] + 1; i < columns_[k + 1]; ++i)
+      if (rows_[i] <= rows_[i - 1] || rows_[i] >= count) return "rows_";
+  }
+  return nullptr;
 }
 
 BlockCholesky::Columns BlockCholesky::columns_of(const Block& block) {

@@ -38,6 +38,8 @@ class BlockCholesky {
   static auto fields(auto& self) {
     return std::tie(self.order_, self.place_, self.blocks_, self.rows_, self.columns_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   using Columns = std::array<Six<double>, 6>;  ///< Columns of a block.

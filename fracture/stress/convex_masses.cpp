@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "engine/base/state_checks.h"
 #include "fracture/adjacency/islands.h"
 #include "fracture/stress/spring_math.h"
 
@@ -35,6 +36,15 @@ ConvexMasses::ConvexMasses(const Compound& compound, std::span<const Material> m
     }
   }
   find_fixed(compound);
+}
+
+const char* ConvexMasses::wrong_field() const {
+  if (masses_kg_.size() != size()) return "masses_kg_";
+  if (inertias_.size() != size()) return "inertias_";
+  if (fixed_.size() != size()) return "fixed_";
+  for (const FreeIsland& island : free_islands_)
+    if (!all_below(island.convexes, size()) || !(island.mass_kg > 0)) return "free_islands_";
+  return nullptr;
 }
 
 void ConvexMasses::find_fixed(const Compound& compound) {

@@ -64,6 +64,8 @@ class ConvexMasses {
     return std::tie(self.centroids_, self.masses_kg_, self.inertias_, self.fixed_,
                     self.free_islands_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   /// Connected convexes without an anchor.

@@ -120,6 +120,20 @@ Multigrid::Multigrid(const Multigrid& old, SpringEdit edit)
   factorize(true);
 }
 
+const char* Multigrid::wrong_field() const {
+  if (!(unit_N_m_ > 0)) return "unit_N_m_";
+  if (levels_.empty() || levels_[0].size() != springs_.size()) return "levels_";
+  if (groups_.size() + 1 != levels_.size()) return "groups_";
+  for (std::size_t level = 0; level < groups_.size(); ++level) {
+    if (groups_[level].nodes() != levels_[level].size() ||
+        groups_[level].count() != levels_[level + 1].size())
+      return "groups_";
+    // Each level is coarser; a cycle visits the next twice.
+    if (levels_[level + 1].size() >= levels_[level].size()) return "levels_";
+  }
+  return coarsest_.nodes() == levels_.back().size() ? nullptr : "coarsest_";
+}
+
 void Multigrid::to_units(std::vector<Spring>& springs) const {
   for (Spring& spring : springs) {
     spring.stretch_N_m /= unit_N_m_;

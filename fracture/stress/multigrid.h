@@ -49,6 +49,8 @@ class Multigrid {
   static auto fields(auto& self) {
     return std::tie(self.springs_, self.unit_N_m_, self.levels_, self.groups_, self.coarsest_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   /// Memory of one level of a cycle.

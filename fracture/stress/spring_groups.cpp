@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "fracture/stress/spring_math.h"
 #include "fracture/tuning.h"
 
@@ -138,6 +139,12 @@ std::vector<Spring> merge(std::vector<Spring> springs) {
 }
 
 }  // namespace
+
+const char* SpringGroups::wrong_field() const {
+  if (count_ > group_.size()) return "count_";
+  if (!all_below(group_, count_)) return "group_";
+  return arms_.size() == group_.size() ? nullptr : "arms_";
+}
 
 SpringGroups::SpringGroups(const SpringLevel<float>& fine, std::size_t size) {
   const Couplings couplings(fine);

@@ -33,6 +33,10 @@ class SpringGroups {
   void prolong(float factor, const Nodal<float>& motions, Nodal<float>& x) const;
 
   static auto fields(auto& self) { return std::tie(self.count_, self.group_, self.arms_); }
+  /// Returns the number of nodes of the fine level.
+  std::size_t nodes() const { return group_.size(); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   std::optional<Spring> between_groups(Spring spring) const;

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "fracture/stress/spring_math.h"
 
 namespace sunder::fracture {
@@ -15,6 +16,46 @@ namespace {
 constexpr double kLeastRotation = 1e-9;
 
 }  // namespace
+
+const char* Spring::wrong_field() const {
+  if (a == kWorld && b == kWorld) return "a";
+  if (!is_within(place, kMostPlace_m)) return "place";
+  if (!is_bounded(stretch_N_m, kMostStiffness_N_m)) return "stretch_N_m";
+  if (!is_within(rotation_Nm, kMostStiffness_N_m)) return "rotation_Nm";
+  const double size = 1e-6 * rotation_Nm.norm();
+  const bool is_symmetric = (rotation_Nm - rotation_Nm.transpose()).norm() <= size;
+  Eigen::SelfAdjointEigenSolver<Mat3> axes;
+  axes.computeDirect(rotation_Nm, Eigen::EigenvaluesOnly);
+  return is_symmetric && axes.eigenvalues().minCoeff() >= -size ? nullptr : "rotation_Nm";
+}
+
+template <class Real>
+const char* SpringLevel<Real>::wrong_field() const {
+  if (inverse_.size() != places_.size()) return "inverse_";
+  const auto nodes = static_cast<std::uint32_t>(size());
+  if (runs_.size() != (size() + kRun - 1) / kRun) return "runs_";
+  for (std::uint32_t r = 0; r < runs_.size(); ++r) {
+    if (!runs_[r]) return "runs_";
+    const Run& run = *runs_[r];
+    if (run.begin != r * kRun || run.end != std::min(nodes, run.begin + kRun) ||
+        run.links.size() != run.springs.size() || !are_different_below(run.beside, runs_.size()))
+      return "runs_";
+    const auto is_end = [&](std::uint32_t node) {
+      return node == Spring::kWorld ||
+             (node < nodes && std::ranges::find(run.beside, node / kRun) != run.beside.end());
+    };
+    for (std::size_t i = 0; i < run.springs.size(); ++i) {
+      const Spring& spring = run.springs[i];
+      const auto is_here = [&](std::uint32_t node) { return node >= run.begin && node < run.end; };
+      if (!is_end(spring.a) || !is_end(spring.b)) return "runs_";
+      if (!is_here(spring.a) && !is_here(spring.b)) return "runs_";
+      if (run.links[i].a != std::min(spring.a, nodes) ||
+          run.links[i].b != std::min(spring.b, nodes))
+        return "runs_";
+    }
+  }
+  return nullptr;
+}
 
 template <class Real>
 SpringLevel<Real>::SpringLevel(std::size_t nodes, std::vector<Spring> springs)

@@ -24,6 +24,9 @@ struct Spring {
   Vec3 place = Vec3::Zero();        ///< Point of action.
   double stretch_N_m = 0;           ///< Stiffness to displacement, equal in all directions.
   Mat3 rotation_Nm = Mat3::Zero();  ///< Stiffness to rotation, N·m/rad; symmetric.
+
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 };
 
 /// Values per node, and one for the world, which is zero.
@@ -86,6 +89,8 @@ class SpringLevel {
   void relax(Real factor, const Nodal<Real>& r, Nodal<Real>& x, bool add) const;
 
   static auto fields(auto& self) { return std::tie(self.places_, self.runs_, self.inverse_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   /// A spring as apply() uses it. The fourth lane of rotation.diagonal is its stretch stiffness.

@@ -1,6 +1,7 @@
 #include "fracture/stress/stress_memory.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -137,6 +138,32 @@ class MemoryUpdate {
 };
 
 }  // namespace
+
+const char* KnownStress::wrong_field() const {
+  if (std::ranges::count(convexes, nullptr) > 0) return "convexes";
+  if (displacements.size() != convexes.size()) return "displacements";
+  if (iterations < 0) return "iterations";
+  if (!system) {
+    if (!slots.empty() || !anchored.empty() || !bonds.empty()) return "system";
+    return last_direction.empty() && deflection.displacements.empty() &&
+                   deflection.last_direction.empty()
+               ? nullptr
+               : "last_direction";
+  }
+  if (!system->fits(convexes.size(), bonds.size())) return "system";
+  if (slots.size() != convexes.size() || !std::ranges::is_sorted(slots, std::less_equal()))
+    return "slots";
+  if (anchored.size() != convexes.size()) return "anchored";
+  for (const Bond& bond : bonds)
+    if (bond.a >= bond.b || bond.b >= convexes.size()) return "bonds";
+  const auto is_direction = [&](const Nodal<double>& direction) {
+    return direction.empty() || direction.size() == system->directions();
+  };
+  if (!is_direction(last_direction)) return "last_direction";
+  const std::size_t deflected = deflection.displacements.size();
+  if (deflected != 0 && deflected != convexes.size()) return "deflection";
+  return is_direction(deflection.last_direction) ? nullptr : "deflection";
+}
 
 std::vector<StressCachePtr> KnownStress::divide(std::span<const Structure* const> pieces) const {
   std::vector<std::shared_ptr<KnownStress>> parts(pieces.size());

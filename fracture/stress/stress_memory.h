@@ -42,6 +42,8 @@ struct KnownStress final : StressCache {
     return std::tie(self.slots, self.convexes, self.anchored, self.bonds, self.ghosts, self.system,
                     self.displacements, self.iterations, self.last_direction, self.deflection);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
   bool is_of(const Compound& compound) const {
     // For equal convexes bonds and ghosts are never added, so equal numbers imply equal ones.
     return bonds.size() == compound.bonds.size() && ghosts == compound.ghosts.size() &&

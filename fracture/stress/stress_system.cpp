@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/roots.h"
+#include "engine/base/state_checks.h"
 #include "fracture/tuning.h"
 
 namespace sunder::fracture {
@@ -72,6 +73,27 @@ StressSystem::StressSystem(const StressSystem& old, const Compound& compound,
     if (edit.is_at(a) || edit.is_at(b)) edit.springs.push_back(spring_of(i));
   }
   multigrid_ = std::make_shared<const Multigrid>(*old.multigrid_, std::move(edit));
+}
+
+const char* StressSystem::wrong_field() const {
+  if (bonds_.size() != geometry_.size()) return "bonds_";
+  for (const ElasticBond& bond : bonds_)
+    if (bond.a >= masses_.size() || bond.b >= masses_.size() || !(bond.stiffness_Pa_m >= 0) ||
+        !(bond.window_m >= 0))
+      return "bonds_";
+  if (node_of_convex_.size() != masses_.size()) return "node_of_convex_";
+  std::vector<std::uint32_t> nodes;
+  for (const std::uint32_t node : node_of_convex_)
+    if (node != Spring::kWorld) nodes.push_back(node);
+  if (nodes_ != (multigrid_ ? multigrid_->springs().size() : nodes.size())) return "nodes_";
+  if (!are_different_below(nodes, nodes_)) return "node_of_convex_";
+  if (!multigrid_ && !nodes.empty()) return "multigrid_";
+  if (by_plane_.size() != bonds_.size() || !are_different_below(by_plane_, bonds_.size()))
+    return "by_plane_";
+  const auto is_before = [&](std::uint32_t x, std::uint32_t y) {
+    return std::tie(bonds_[x].plane, x) < std::tie(bonds_[y].plane, y);
+  };
+  return std::ranges::is_sorted(by_plane_, is_before) ? nullptr : "by_plane_";
 }
 
 bool StressSystem::has_spring(std::uint32_t bond) const {

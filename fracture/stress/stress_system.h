@@ -98,6 +98,14 @@ class StressSystem {
     return std::tie(self.geometry_, self.masses_, self.node_of_convex_, self.bonds_, self.by_plane_,
                     self.springs_, self.nodes_, self.overlaps_, self.multigrid_);
   }
+  /// Returns true if the system is of this compound's size.
+  bool fits(std::size_t convexes, std::size_t bonds) const {
+    return masses_.size() == convexes && bonds_.size() == bonds;
+  }
+  /// Returns the number of nodes with their one for the world: the size of a search direction.
+  std::size_t directions() const { return multigrid_ ? multigrid_->springs().size() + 1 : 0; }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   /// The spring of a bond, from the displacements of two convexes to stress.

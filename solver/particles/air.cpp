@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "solver/particles/tuning.h"
 
 namespace sunder::solver {
@@ -129,6 +130,22 @@ void Air::advance(double dt_s, const Vec3& gravity_W, const Obstacles& obstacles
   apply_dust_loads(static_cast<float>(dt_s), gravity_W.cast<float>());
   apply_solids();
   project();
+}
+
+const char* Air::wrong_field() const {
+  const Lattice& lattice = grid_.lattice;
+  if (lattice.counts != solver_.lattice().counts) return "grid_";
+  const std::size_t cells = lattice.size();
+  const auto fit = [&](const std::array<Field, 3>& fields) {
+    return have_size(cells, fields[0], fields[1], fields[2]);
+  };
+  if (!fit(velocity_)) return "velocity_";
+  if (!fit(advected_)) return "advected_";
+  if (!have_size(cells, solids_.fraction) || !fit(solids_.momentum)) return "solids_";
+  if (dust_kg_.size() != cells) return "dust_kg_";
+  if (emitted_kg_.size() != cells) return "emitted_kg_";
+  if (!fit(emitted_Ns_)) return "emitted_Ns_";
+  return are_different_below(dusty_cells_, cells) ? nullptr : "dusty_cells_";
 }
 
 void Air::clear_loads() {

@@ -47,6 +47,8 @@ class Air : public Flow {
                     self.dusty_cells_, self.dust_kg_, self.emitted_kg_, self.emitted_Ns_,
                     self.solver_, self.max_speed_of_layer_, self.iterations_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   void advect(float dt_s);

@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "solver/base/morton_order.h"
 #include "solver/base/wide.h"
 #include "solver/particles/tuning.h"
@@ -47,6 +48,39 @@ bool has_moved(const Pose& before, const Pose& now) {
 }  // namespace
 
 Debris::Debris(std::uint32_t limit, const Vec3& gravity_W) : limit_(limit), gravity_W_(gravity_W) {}
+
+const char* Debris::wrong_field() const {
+  const std::size_t chips = position_W_.size();
+  if (chips > limit_) return "limit_";
+  if (!have_size(chips, velocity_W_, angular_velocity_W_, rotation_WD_, radius_m_, drawn_radius_m_,
+                 slow_s_, variant_, material_, state_, support_, sleep_order_))
+    return "position_W_";
+  const auto are_below = [](const std::vector<Vec3f>& vectors, float most) {
+    return std::ranges::all_of(vectors,
+                               [&](const Vec3f& v) { return v.cwiseAbs().maxCoeff() < most; });
+  };
+  if (!are_below(position_W_, 1e9f)) return "position_W_";
+  if (!are_below(velocity_W_, 1e9f)) return "velocity_W_";
+  if (!are_below(angular_velocity_W_, 1e9f)) return "angular_velocity_W_";
+  const auto is_radius = [](float radius) { return radius >= 0 && radius < 1e6f; };
+  if (!std::ranges::all_of(radius_m_, is_radius)) return "radius_m_";
+  if (!std::ranges::all_of(drawn_radius_m_, is_radius)) return "drawn_radius_m_";
+  // Chips that are gone stay in the order until the lists are made anew.
+  if ((lists_valid_ ? order_.size() != chips : order_.size() < chips) ||
+      !are_different_below(order_, order_.size()))
+    return "order_";
+  if (lists_valid_) {
+    const auto have_state = [&](const std::vector<std::uint32_t>& list, State state) {
+      return list.size() == static_cast<std::size_t>(std::ranges::count(state_, state)) &&
+             are_different_below(list, chips) &&
+             std::ranges::all_of(list, [&](std::uint32_t chip) { return state_[chip] == state; });
+    };
+    if (!have_state(awake_, State::kAwake)) return "awake_";
+    if (!have_state(asleep_, State::kAsleep)) return "asleep_";
+    if (!have_state(fading_, State::kFading)) return "fading_";
+  }
+  return std::ranges::is_sorted(supports_, {}, &Support::key) ? nullptr : "supports_";
+}
 
 void Debris::add(const DebrisBirth& birth) {
   SUNDER_CHECK(birth.radius_m > 0);

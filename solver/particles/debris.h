@@ -45,6 +45,8 @@ class Debris {
                     self.steps_, self.awake_, self.asleep_, self.fading_, self.lists_valid_,
                     self.asleep_box_, self.supports_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   enum class State : std::uint8_t { kAwake, kAsleep, kFading };

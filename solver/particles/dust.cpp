@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "solver/base/morton_order.h"
 #include "solver/particles/rotate.h"
 #include "solver/particles/tuning.h"
@@ -24,6 +25,23 @@ Dust::Dust(std::uint32_t limit, const Vec3& gravity_W, const Vec3i& air_cells)
     : limit_(limit), gravity_W_(gravity_W), air_cells_(air_cells) {
   const double strength = gravity_W.norm();
   down_W_ = strength > 0 ? Vec3f((gravity_W / strength).cast<float>()) : Vec3f(Vec3f::Zero());
+}
+
+const char* Dust::wrong_field() const {
+  const std::size_t puffs = position_W_.size();
+  if (puffs > limit_) return "limit_";
+  if (!have_size(puffs, slip_W_, rotation_WD_, mass_kg_, settling_m_s_, turbulence_m_s_,
+                 first_radius_m_, radius_m_, opacity_, age_s_, settled_s_, material_))
+    return "position_W_";
+  const auto is_number = [](float number) { return number >= 0 && number < 1e9f; };
+  if (!std::ranges::all_of(mass_kg_, is_number)) return "mass_kg_";
+  if (!std::ranges::all_of(radius_m_, is_number)) return "radius_m_";
+  if (!std::ranges::all_of(first_radius_m_, is_number)) return "first_radius_m_";
+  if (!std::ranges::all_of(turbulence_m_s_, is_number)) return "turbulence_m_s_";
+  if (!std::ranges::all_of(age_s_, is_number)) return "age_s_";
+  const auto is_near = [](const Vec3f& v) { return v.cwiseAbs().maxCoeff() < 1e9f; };
+  if (!std::ranges::all_of(position_W_, is_near)) return "position_W_";
+  return std::ranges::all_of(slip_W_, is_near) ? nullptr : "slip_W_";
 }
 
 void Dust::add(const DustBirth& birth) {

@@ -46,6 +46,8 @@ class Dust {
                     self.settling_m_s_, self.turbulence_m_s_, self.first_radius_m_, self.radius_m_,
                     self.opacity_, self.age_s_, self.settled_s_, self.material_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   static constexpr std::uint32_t kOutside = 0xffffffff;
@@ -62,6 +64,10 @@ class Dust {
     Flow() : Flow(Vec3i::Constant(8)) {}
     explicit Flow(const Vec3i& cells) : air(cells), swirl(Lattice{cells}) {}
     static auto fields(auto& self) { return std::tie(self.air, self.swirl); }
+    /// Returns the name of a field that is wrong, for saved states; null if none is.
+    const char* wrong_field() const {
+      return swirl.lattice().counts == air.grid().lattice.counts ? nullptr : "swirl";
+    }
     Air air;
     Swirl swirl;
   };

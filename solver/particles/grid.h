@@ -13,6 +13,11 @@ struct Grid {
   double cell_m = 1;
   bool on_ground = false;  ///< True if the floor of the grid is the ground, which is closed.
 
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const {
+    if (!(origin_W.cwiseAbs().maxCoeff() < 1e12)) return "origin_W";
+    return cell_m > 1e-9 && cell_m < 1e12 ? nullptr : "cell_m";
+  }
   Vec3 extent_m() const { return cell_m * lattice.counts.cast<double>(); }
 };
 

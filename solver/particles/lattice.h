@@ -16,6 +16,7 @@ using Field = std::vector<float>;
 /// Indexing of cells and faces. Cells (i, j, k) run from 1 to counts; face (i, j, k) of an axis is
 /// the lower face of that cell, so faces run one further along their axis.
 struct Lattice {
+  static constexpr int kMostCells = 1024;  ///< Along an axis, of a saved state.
   Vec3i counts = Vec3i::Zero();
 
   std::ptrdiff_t stride(int axis) const {
@@ -27,6 +28,10 @@ struct Lattice {
   }
   std::size_t size() const {
     return static_cast<std::size_t>(stride(2)) * static_cast<std::size_t>(counts.z() + 3);
+  }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const {
+    return counts.minCoeff() >= 0 && counts.maxCoeff() <= kMostCells ? nullptr : "counts";
   }
   std::size_t cells() const { return static_cast<std::size_t>(counts.prod()); }
   /// Returns the number of cell layers per parallel chunk; depends on the lattice alone.

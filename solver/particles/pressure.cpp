@@ -6,6 +6,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "solver/particles/tuning.h"
 
 namespace sunder::solver {
@@ -88,6 +89,27 @@ PressureSolver::PressureSolver(const Vec3i& counts) {
     field->assign(levels_[0].lattice.size(), 0);
   }
   partial_.resize(static_cast<std::size_t>(counts.z()));
+}
+
+const char* PressureSolver::wrong_field() const {
+  // The levels are those that a solver for as many cells is made with.
+  if (levels_.empty()) return "levels_";
+  const Vec3i counts = levels_[0].lattice.counts;
+  if (counts.minCoeff() < 4 || counts.x() % kSumLanes != 0 || counts.x() > kLongestRow ||
+      levels_[0].residual.size() != levels_[0].lattice.size())
+    return "levels_";
+  const PressureSolver same(counts);
+  if (levels_.size() != same.levels_.size()) return "levels_";
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    const Level& level = levels_[i];
+    if (level.lattice.counts != same.levels_[i].lattice.counts ||
+        !have_size(level.lattice.size(), level.a[0], level.a[1], level.a[2], level.inverse_diagonal,
+                   level.residual, level.correction))
+      return "levels_";
+  }
+  if (!have_size(levels_[0].lattice.size(), pressure_, direction_, matrix_direction_))
+    return "pressure_";
+  return partial_.size() == same.partial_.size() ? nullptr : "partial_";
 }
 
 void PressureSolver::find_diagonal(Level& level) {

@@ -34,6 +34,9 @@ class PressureSolver {
     return std::tie(self.levels_, self.pressure_, self.direction_, self.matrix_direction_,
                     self.partial_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
+  const Lattice& lattice() const { return levels_[0].lattice; }
 
  private:
   /// One grid of the hierarchy. On the finest, `residual` is that of the whole solve.

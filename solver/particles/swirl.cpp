@@ -1,7 +1,9 @@
 #include "solver/particles/swirl.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/base/state_checks.h"
 #include "solver/particles/tuning.h"
 
 namespace sunder::solver {
@@ -13,6 +15,17 @@ constexpr float kProfile = 3.4939f;
 }  // namespace
 
 Swirl::Swirl(const Lattice& lattice) : lattice_(lattice), vortex_of_cell_(lattice.size(), -1) {}
+
+const char* Swirl::wrong_field() const {
+  if (vortex_of_cell_.size() != lattice_.size()) return "vortex_of_cell_";
+  for (std::size_t i = 0; i < vortices_.size(); ++i) {
+    if (vortices_[i].cell >= vortex_of_cell_.size() ||
+        vortex_of_cell_[vortices_[i].cell] != static_cast<std::int32_t>(i))
+      return "vortices_";
+  }
+  const auto empty = static_cast<std::size_t>(std::ranges::count(vortex_of_cell_, -1));
+  return empty + vortices_.size() == vortex_of_cell_.size() ? nullptr : "vortex_of_cell_";
+}
 
 void Swirl::clear() {
   for (const Vortex& vortex : vortices_) vortex_of_cell_[vortex.cell] = -1;

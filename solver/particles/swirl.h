@@ -43,6 +43,9 @@ class Swirl {
   static auto fields(auto& self) {
     return std::tie(self.lattice_, self.vortex_of_cell_, self.vortices_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
+  const Lattice& lattice() const { return lattice_; }
 
  private:
   struct Vortex {

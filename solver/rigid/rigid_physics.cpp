@@ -90,6 +90,7 @@ class RigidPhysics final : public Physics {
                     ShapeVisitor& visitor) override;
   void visit_in_box(const Box& box_W, ShapeVisitor& visitor) override;
   std::vector<WorkItem> take_work() override { return work_.take(); }
+  PhysicsContents contents() const override;
 
  private:
   void remove_bodies(std::span<const BodyId> ids);
@@ -133,6 +134,15 @@ void RigidPhysics::archive(Archive& bytes) {
   bytes(bodies_, shapes_, contacts_, joints_, broad_phase_, dense_clusters_, speculative_contacts_,
         paused_, last_h_s_, frozen_, skipped_, reach_);
   if (!bytes.reads()) return;
+  bytes.refuse_field<Shapes>(shapes_.wrong_field(bodies_));
+  bytes.refuse_field<Contacts>(contacts_.wrong_field(bodies_, shapes_));
+  bytes.refuse_field<Joints>(joints_.wrong_field(bodies_));
+  bytes.refuse_field<BroadPhase>(broad_phase_.wrong_field(shapes_));
+  bytes.refuse_field<SpeculativeContacts>(
+      speculative_contacts_.wrong_field(contacts_, bodies_, shapes_));
+  bytes.refuse_field<Paused>(paused_.wrong_field(bodies_));
+  if (!(last_h_s_ >= 0 && last_h_s_ <= 1)) bytes.refuse_field<RigidPhysics>("last_h_s_");
+  if (reach_.size() > bodies_.size()) bytes.refuse_field<RigidPhysics>("reach_");
   contacts_of_bodies_.clear();
   queries_valid_ = false;
 }
@@ -154,6 +164,23 @@ std::vector<BodyId> RigidPhysics::replace(std::span<const BodyId> remove,
     for (const ShapeDesc& shape : add[i].shapes) shapes.push_back({&shape, slots[i]});
   broad_phase_.add(shapes_.add(shapes, bodies_), shapes_, bodies_);
   return ids;
+}
+
+PhysicsContents RigidPhysics::contents() const {
+  PhysicsContents all;
+  for (const BodySlot body : bodies_.slots()) {
+    if (bodies_.motion[body] == Motion::kAbsent) continue;
+    PhysicsContents::Body& one = all.bodies.emplace_back();
+    one.id = bodies_.id(body);
+    one.tag = bodies_.tag[body];
+    for (const ShapeSlot s : shapes_.of_body(body, bodies_))
+      one.shape_tags.push_back(shapes_[s].tag);
+    std::ranges::sort(one.shape_tags);
+  }
+  for (std::uint32_t slot = 0; slot < joints_.size(); ++slot)
+    if (joints_[slot].present)
+      all.joints.push_back({{slot, joints_[slot].generation}, joints_[slot].desc.kind});
+  return all;
 }
 
 void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {

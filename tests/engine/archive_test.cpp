@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -77,7 +78,7 @@ Everything example(std::uint64_t seed) {
     one = {7, number(), Kind::kSecond, Vec3(number(), number(), number())};
   all.padded = {all.list[0], {}};
   all.numbers.assign(seed % 7, 1.5f);
-  all.nested = {{}, {Quat(1, 2, 3, number())}};
+  all.nested = {{}, {Quat(1, 2, 3, number()).normalized()}};
   all.some = Vec3(1, 2, number());
   all.names = {{3, "three"}, {9, std::string(40, 'x')}};
   all.keys = {5, 1, ~std::uint64_t{0}};
@@ -163,6 +164,73 @@ TEST(Archive, RefusesBytesThatAreCutOff) {
   Everything read;
   in(read);
   EXPECT_THROW(in.finish(), InputError);
+}
+
+/// Has a list, and an index into it.
+struct Chosen {
+  std::vector<std::uint32_t> list;
+  std::uint32_t index = 0;
+  const char* wrong_field() const { return index < list.size() ? nullptr : "index"; }
+};
+
+struct Unlimited {
+  static constexpr bool kMayBeInfinite = true;
+  double most = std::numeric_limits<double>::infinity();
+};
+
+/// Writes one object, reads its bytes as another class, and returns why they are refused.
+template <class Read, class Written>
+std::string refusal(Written written) {
+  Archive out;
+  out(written);
+  const std::vector<std::byte> bytes = out.take();
+  Archive in(bytes);
+  Read read{};
+  try {
+    in(read);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Archive, RefusesValuesThatAreNone) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto expect = [](const std::string& said, const std::string& why) {
+    EXPECT_NE(said.find(why), std::string::npos) << said;
+  };
+  expect(refusal<Vec3>(Vec3(0, kNaN, 0)), "not finite");
+  expect(refusal<std::vector<float>>(std::vector<float>{1, static_cast<float>(kInfinity)}),
+         "not finite");
+  expect(refusal<std::optional<double>>(std::optional(kInfinity)), "not finite");
+  expect(refusal<Kind>(std::uint8_t{2}), "Kind has no value 2");
+  expect(refusal<Quat>(Quat(1, 1, 0, 0)), "not of unit length");
+  expect(refusal<std::set<std::uint64_t>>(std::vector<std::uint64_t>{3, 3}), "do not ascend");
+  expect(refusal<std::vector<Padded>>(std::vector<Padded>{{}, {1, kNaN, Kind::kFirst, {}}}),
+         "Padded, field 1");
+  EXPECT_EQ(refusal<Unlimited>(Unlimited()), "");
+  expect(refusal<Unlimited>(Unlimited{kNaN}), "not finite");
+}
+
+TEST(Archive, RefusesWhatAClassFindsWrongAndNamesTheField) {
+  EXPECT_EQ(refusal<Chosen>(Chosen{{7, 8}, 1}), "");
+  const std::string said = refusal<std::vector<Chosen>>(std::vector<Chosen>{{{7}, 0}, {{7}, 1}});
+  EXPECT_NE(said.find("Chosen::index is wrong"), std::string::npos) << said;
+}
+
+// A count may claim no more elements than the bytes behind it can hold.
+TEST(Archive, RefusesCountsBeforeTheyTakeMemory) {
+  struct Large {
+    std::string text;
+    std::array<std::vector<int>, 40> lists;
+  };
+  std::vector<std::uint64_t> words(1000, 0);
+  words[0] = 500;  // each has 41 counts of 8 bytes
+  Archive in(std::as_bytes(std::span(words)));
+  std::vector<Large> read;
+  EXPECT_THROW(in(read), InputError);
+  EXPECT_TRUE(read.empty());
 }
 
 // Neither a crash nor memory without bounds.

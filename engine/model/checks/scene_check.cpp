@@ -41,6 +41,7 @@ class SceneCheck : private ItemCheck {
     need_number(accuracy.error_target_m, 0, kMaxNumber, "accuracy.error_target_m");
     need_number(scene_.solver.sweeps, 1, 1000, "solver.sweeps");
     need_number(scene_.solver.max_colors, 0, 64, "solver.max_colors");
+    need_number(scene_.solver.lanes, 0, 16, "solver.lanes");
     need_number(scene_.limits.bodies, 1, 1e9, "limits.bodies");
     need_number(scene_.limits.piece_size_factor, 0, kMaxNumber, "limits.piece_size_factor");
     need_number(scene_.limits.chip_size_factor, 1, kMaxNumber, "limits.chip_size_factor");

@@ -5,7 +5,9 @@
 #include <span>
 #include <utility>
 
+#include "engine/model/checks/item_check.h"
 #include "engine/world/act/moves.h"
+#include "engine/world/actors/check_state.h"
 #include "engine/world/actors/make_actor.h"
 #include "engine/world/actors/replace.h"
 #include "engine/world/tuning.h"
@@ -200,6 +202,22 @@ void loosen_actor(WorldState& world, std::uint32_t key) {
   for (const ConvexSlot slot : actor.structure.slots()) actor.structure.loosen(slot);
   BreakEdit nothing_more;
   apply_break(world, key, nothing_more);
+}
+
+const char* ActStage::wrong_field(const WorldState& world) const {
+  const ItemCheck check("a saved state: ", *world.materials);
+  for (const PlannedShot& planned : shots_.to_come()) {
+    check.shot(planned.shot, "shots_");
+    if (!(planned.mass_kg >= 0)) return "shots_";
+    if (planned.name != kNoName && planned.name >= world.names->size()) return "shots_";
+  }
+  for (const PlannedBlast& planned : blasts_to_come_.to_come())
+    check.blast(planned.blast, "blasts_to_come_");
+  for (const ActiveBlast& active : blasts_) check.blast(active.blast, "blasts_");
+  for (const Drive& drive : drives_) check.drive(drive, "drives_");
+  for (const ActorImpact& impact : impacts_)
+    if (!is_possible(world, impact)) return "impacts_";
+  return nullptr;
 }
 
 void ActStage::start(WorldState& world) {

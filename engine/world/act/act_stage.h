@@ -55,6 +55,8 @@ class ActStage {
     return std::tie(self.shots_, self.blasts_to_come_, self.removals_, self.drives_, self.moves_,
                     self.blasts_, self.impacts_, self.next_blast_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field(const WorldState& world) const;
 
  private:
   struct PlannedShot {

@@ -33,6 +33,10 @@ class Agenda {
   std::span<const Act> to_come() const { return acts_; }
 
   static auto fields(auto& self) { return std::tie(self.acts_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const {
+    return std::ranges::is_sorted(acts_, {}, &Act::time_s) ? nullptr : "acts_";
+  }
 
  private:
   std::vector<Act> acts_;

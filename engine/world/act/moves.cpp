@@ -1,5 +1,7 @@
 #include "engine/world/act/moves.h"
 
+#include <cmath>
+
 #include "engine/base/rotation.h"
 #include "engine/world/actors/make_actor.h"
 
@@ -27,6 +29,18 @@ void Moves::add(WorldState& world, const Move& move, std::uint32_t key, const Po
   end(key);
   active_.push_back({key, start_X_WR, world.clock.time_s(), move.path,
                      move.pivot_W.value_or(start_X_WR.position), move.release_s});
+}
+
+const char* Moves::wrong_field() const {
+  for (const Active& move : active_) {
+    if (!std::isfinite(move.start_s)) return "active_";
+    double last_s = 0;
+    for (const PathKey& key : move.path.keys) {
+      if (!(key.time_s > last_s)) return "active_";
+      last_s = key.time_s;
+    }
+  }
+  return nullptr;
 }
 
 void Moves::end(std::uint32_t key) {

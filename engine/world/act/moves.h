@@ -24,9 +24,12 @@ class Moves {
   void update(WorldState& world);
 
   static auto fields(auto& self) { return std::tie(self.active_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   struct Active {
+    static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
     std::uint32_t key = 0;
     Pose start_X_WR;
     double start_s = 0;

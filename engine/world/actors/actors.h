@@ -69,6 +69,8 @@ class Actors {
     for (; count > 0; --count) {
       Actor actor;
       bytes(actor);
+      const bool ascends = actors.keys_.empty() || actors.keys_.back() < actor.key;
+      if (!ascends || actor.key >= actors.next_key_) bytes.refuse_field<Actor>("key");
       actors.add(std::move(actor));
     }
   }

@@ -54,6 +54,16 @@ struct Clock {
     return std::tie(self.dt_s, self.substeps, self.steps_per_frame, self.step, self.frame,
                     self.since_s, self.since_step, self.first_step);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const {
+    constexpr int kMostSteps = 1000000;  // of a frame of the longest time, at the shortest step
+    if (!(dt_s >= 1e-6 && dt_s <= 1)) return "dt_s";
+    if (substeps < 1 || substeps > 1000) return "substeps";
+    if (steps_per_frame < 1 || steps_per_frame > kMostSteps) return "steps_per_frame";
+    if (!(since_s >= 0 && since_s < 1e12)) return "since_s";
+    if (since_step > step) return "since_step";
+    return first_step <= step ? nullptr : "first_step";
+  }
 
   double since_s = 0;            ///< Time at which steps became `dt_s` long.
   std::uint64_t since_step = 0;  ///< First step of this length.

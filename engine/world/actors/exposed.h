@@ -32,6 +32,18 @@ struct Exposed {
   std::vector<Vec3> corners_R;
   std::vector<DebrisPiece> chips;  ///< Positions at the start of the frame.
 
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const {
+    std::size_t end = 0;
+    for (const Face& face : faces) {
+      if (face.parent >= parents.size() || face.corners_end < end + 3 ||
+          face.corners_end > corners_R.size())
+        return "faces";
+      end = face.corners_end;
+    }
+    return end == corners_R.size() ? nullptr : "corners_R";
+  }
+
   /// Moves the time reference on by `time_s`, when the emission is delayed by a frame.
   void delay(double time_s);
 };

@@ -12,8 +12,9 @@ namespace sunder {
 
 /// An impact that may break an actor: by a body, by a blast, or by the program.
 struct ActorImpact {
-  std::uint32_t key = 0;  ///< Key of the struck actor.
-  ConvexSlot convex;      ///< Struck convex.
+  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  std::uint32_t key = 0;                        ///< Key of the struck actor.
+  ConvexSlot convex;                            ///< Struck convex.
   Vec3 point_W = Vec3::Zero();
   Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the actor.
   double energy_J = 0;               ///< Work that the impact can do at the point.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "engine/model/piece_mesh.h"
 
 namespace sunder {
@@ -17,6 +18,21 @@ MeshIndex Meshes::add(std::shared_ptr<const Mesh> mesh) {
   store_.push_back(std::move(mesh));
   ++kept_;
   return MeshIndex(store_.size() - 1);
+}
+
+const char* Meshes::wrong_field(const Actors& actors) const {
+  std::size_t kept = 0;
+  store_.for_each([&](std::size_t) { ++kept; });
+  if (kept_ != kept) return "kept_";
+  if (!all_below(unused_, store_.size()) || !std::ranges::is_sorted(unused_)) return "unused_";
+  for (const Pending& one : pending_) {
+    const Actor* actor = actors.find(one.key);
+    if (!actor) continue;
+    if (one.slot.value >= actor->meshes.size()) return "pending_";
+    if (actor->meshes[one.slot.value] == kMeshPending && !actor->structure.has(one.slot))
+      return "pending_";
+  }
+  return nullptr;
 }
 
 bool Meshes::is_needed(const Actors& actors, const Pending& one) {

@@ -45,6 +45,15 @@ class Meshes {
     return std::tie(self.store_, self.searched_, self.unused_, self.kept_, self.most_,
                     self.pending_, self.most_pending_);
   }
+  /// Returns true if a mesh is in the store and has not been released.
+  bool has(MeshIndex mesh) const { return mesh.value < store_.size() && store_[mesh.value]; }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field(const Actors& actors) const;
+  /// Calls `visit(mesh)` for each mesh.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    store_.for_each([&](std::size_t i) { visit(*store_[i]); });
+  }
 
  private:
   void free_unused(const Actors& actors, std::span<const MeshIndex> others);

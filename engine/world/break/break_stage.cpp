@@ -9,6 +9,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/model/work_log.h"
+#include "engine/world/actors/check_state.h"
 #include "engine/world/actors/load_case.h"
 #include "engine/world/break/cluster_probe.h"
 #include "engine/world/break/clusters.h"
@@ -414,6 +415,12 @@ bool BreakStage::resolve(WorldState& world, const Breaker& breaker, std::vector<
     trials = std::move(next);
   }
   return again;
+}
+
+const char* BreakStage::wrong_field(const WorldState& world) const {
+  const auto is_wrong = [&](const ActorImpact& impact) { return !is_possible(world, impact); };
+  return std::ranges::any_of(deferred_blast_impacts_, is_wrong) ? "deferred_blast_impacts_"
+                                                                : nullptr;
 }
 
 void BreakStage::run(WorldState& world, const Breaker& breaker,

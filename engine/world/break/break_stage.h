@@ -82,6 +82,8 @@ class BreakStage {
     return std::tie(self.budget_, self.unbroken_probes_, self.deferred_blast_impacts_,
                     self.deferred_impacts_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field(const WorldState& world) const;
 
  private:
   /// Advances the probes without known loads to their next loads; removes trials without any.

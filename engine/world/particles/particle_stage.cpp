@@ -5,6 +5,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/rotation.h"
+#include "engine/base/state_checks.h"
 
 namespace sunder {
 namespace {
@@ -116,6 +117,15 @@ Surroundings surroundings(const WorldState& world) {
 }
 
 }  // namespace
+
+const char* ParticleStage::wrong_field(const WorldState& world) const {
+  if (!particles_) return nullptr;
+  const std::size_t materials = world.materials->size();
+  return all_below(particles_->debris().material, materials) &&
+                 all_below(particles_->dust().material, materials)
+             ? nullptr
+             : "particles_";
+}
 
 void ParticleStage::run(const WorldState& world, const Exposed& exposed) {
   emit(world, exposed, *particles_);

@@ -36,6 +36,8 @@ class ParticleStage {
   static auto fields(auto& self) {
     return std::tie(self.particles_, self.ignored_debris_, self.ignored_dust_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field(const WorldState& world) const;
 
  private:
   CopiedPtr<Particles> particles_;

@@ -2,8 +2,10 @@
 #include "solver/rigid/body/bodies.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "engine/geometry/inertia.h"
 
 namespace sunder::solver {
@@ -85,6 +87,44 @@ void Bodies::resize(std::uint32_t count) {
   filter.resize(count);
   tag.resize(count);
   first_shape.resize(count);
+}
+
+const char* Bodies::wrong_field() const {
+  if (!have_size(size(), generation, position, com_R, rotation, rotation_f, velocity,
+                 angular_velocity, mass_kg, inertia_B, inverse_mass, root_B, is_gyroscopic, reach_m,
+                 rotation_path_m, resting_s, lost_N, rest_position, rest_rotation, is_new, changed,
+                 displaced, reports_load, tag, filter, first_shape))
+    return "motion";
+  if (!are_different_below(free_slots, size())) return "free_slots";
+  const auto absent = static_cast<std::size_t>(std::ranges::count(motion, Motion::kAbsent));
+  if (absent != free_slots.size()) return "free_slots";
+  for (const BodySlot body : free_slots)
+    if (motion[body] != Motion::kAbsent) return "free_slots";
+  for (const BodySlot body : slots()) {
+    if (motion[body] == Motion::kAbsent) continue;
+    if (!is_within(position[body], kMostPlace_m)) return "position";
+    if (!is_within(rest_position[body], kMostPlace_m)) return "rest_position";
+    if (!is_within(com_R[body], kMostPlace_m)) return "com_R";
+    if (rotation_f[body] != rotation[body].toRotationMatrix().cast<float>()) return "rotation_f";
+    if (!is_within(velocity[body], kMostSpeed_m_s)) return "velocity";
+    if (!is_within(angular_velocity[body], kMostSpeed_m_s)) return "angular_velocity";
+    if (!is_bounded(reach_m[body], kMostShape_m)) return "reach_m";
+    if (!(rotation_path_m[body] >= 0)) return "rotation_path_m";
+    if (!(resting_s[body] >= 0)) return "resting_s";
+    if (!dynamic(body)) {
+      if (inverse_mass[body] != 0) return "inverse_mass";
+      if (!root_B[body].isZero(0)) return "root_B";
+      continue;
+    }
+    if (!(mass_kg[body] > 0 && mass_kg[body] < kMostMass_kg)) return "mass_kg";
+    if (inverse_mass[body] != static_cast<float>(1 / mass_kg[body])) return "inverse_mass";
+    // The root has to be that of the inverse inertia.
+    const Mat3 root = root_B[body].cast<double>();
+    const Mat3 one = inertia_B[body] * root * root.transpose();
+    if (!is_within(one - Mat3::Identity(), kUnitError)) return "root_B";
+    if (!(inertia_B[body].diagonal().minCoeff() > 0)) return "inertia_B";
+  }
+  return nullptr;
 }
 
 BodySlot Bodies::add(const BodyDesc& desc) {
@@ -270,6 +310,64 @@ std::vector<ShapeSlot> Shapes::add(std::span<const NewShape> added, Bodies& bodi
     if (!static_with_tag_.contains(key)) static_with_tag_.insert(key, s.value);
   }
   return slots;
+}
+
+const char* Shape::wrong_field() const {
+  const auto is_number = [](float number) { return is_bounded(number, kMostShape_m); };
+  if (!is_number(friction)) return "friction";
+  if (!is_number(rolling)) return "rolling";
+  if (!(restitution >= 0 && restitution <= 1)) return "restitution";
+  if (!is_number(radius_m)) return "radius_m";
+  if (!is_number(reach_m)) return "reach_m";
+  if (!is_within(center, kMostShape_m)) return "center";
+  if (kind == ShapeDesc::Kind::kHalfSpace) {
+    if (inner_radius_m != 1e30f) return "inner_radius_m";
+    return is_unit(normal) ? nullptr : "normal";
+  }
+  if (!is_number(inner_radius_m)) return "inner_radius_m";
+  // A facet is a triangle with a front, three sides and a back.
+  if (facet && (hull.vertex_count() == 0 || hull.face_count() < 5)) return "hull";
+  if (body.none()) return nullptr;
+  return (kind == ShapeDesc::Kind::kHull) == (hull.vertex_count() > 0) ? nullptr : "hull";
+}
+
+const char* Shapes::wrong_field() const {
+  if (!are_different_below(free_slots, size())) return "free_slots";
+  const auto is_free = [](const Shape& shape) { return shape.body.none(); };
+  if (static_cast<std::size_t>(std::ranges::count_if(items, is_free)) != free_slots.size())
+    return "free_slots";
+  for (const ShapeSlot s : free_slots)
+    if (!is_free(items[s])) return "free_slots";
+  for (const Shape& shape : items) {
+    for (const ShapeSlot other : {shape.next, shape.previous})
+      if (!other.none() && other.value >= size()) return "items";
+    if (is_free(shape) && !(shape.next.none() && shape.previous.none())) return "items";
+  }
+  return nullptr;
+}
+
+const char* Shapes::wrong_field(const Bodies& bodies) const {
+  std::size_t listed = 0, with_tag = 0;
+  for (const BodySlot body : bodies.slots()) {
+    if (bodies.motion[body] == Motion::kAbsent) continue;
+    ShapeSlot previous;
+    for (ShapeSlot s = bodies.first_shape[body]; !s.none(); s = items[s].next) {
+      if (s.value >= size() || items[s].body != body || items[s].previous != previous)
+        return "items";
+      if (double{items[s].reach_m} > bodies.reach_m[body]) return "items";
+      if (bodies.motion[body] == Motion::kStatic) {
+        const std::uint32_t known = static_with_tag_.find(tag_key(body, items[s].tag));
+        if (known >= size() || items[ShapeSlot(known)].body != body ||
+            items[ShapeSlot(known)].tag != items[s].tag)
+          return "static_with_tag_";
+        with_tag += known == s.value;
+      }
+      previous = s;
+      ++listed;
+    }
+  }
+  if (listed + free_slots.size() != size()) return "items";
+  return with_tag == static_with_tag_.size() ? nullptr : "static_with_tag_";
 }
 
 std::vector<ShapeSlot> Shapes::of_body(BodySlot body, const Bodies& bodies) const {

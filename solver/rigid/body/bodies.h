@@ -119,6 +119,9 @@ struct Bodies {
   /// Clears the flags `is_new` and `displaced` of all bodies.
   void clear_step_flags();
 
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
+
  private:
   void resize(std::uint32_t count);
 };
@@ -144,6 +147,9 @@ struct Shape {
       Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(),
       Eigen::Vector2f::Zero()};  ///< (cos, sin) of the angle at each edge.
   Hull hull;
+
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 };
 
 /// A shape to add to an existing body.
@@ -170,6 +176,10 @@ struct Shapes {
   static auto fields(auto& self) {
     return std::tie(self.items, self.free_slots, self.static_with_tag_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
+  /// As wrong_field(), of the bodies whose shapes they are.
+  const char* wrong_field(const Bodies& bodies) const;
 
  private:
   KeyMap static_with_tag_;  ///< Static shapes by body and tag; the first of each tag.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/check.h"
+#include "engine/base/state_checks.h"
 #include "solver/base/lanes.h"
 #include "solver/rigid/tuning.h"
 
@@ -47,6 +48,37 @@ Hull::Hull(const ConvexPolyhedron& convex, const Vec3& com_R) {
   }
   face_first_.push_back(static_cast<std::uint16_t>(corners_.size()));
   add_edges();
+}
+
+const char* Hull::wrong_field() const {
+  if (vertex_count_ == 0)
+    return vertices_.empty() && face_first_.empty() ? nullptr : "vertex_count_";
+  const auto is_length = [](float length) { return is_bounded(length, kMostShape_m); };
+  if (vertices_.size() != lane_groups(vertex_count_)) return "vertices_";
+  for (std::uint32_t i = 0; i < vertices_.size() * kLanes; ++i) {
+    if (!is_length(vertex(i).norm())) return "vertices_";
+    if (i >= vertex_count_ && vertex(i) != vertex(vertex_count_ - 1)) return "vertices_";
+  }
+  if (face_first_.size() < 2 || face_first_[0] != 0 || face_first_.back() != corners_.size())
+    return "face_first_";
+  if (planes_.size() != lane_groups(face_count())) return "planes_";
+  for (std::uint32_t f = 0; f < planes_.size() * kLanes; ++f) {
+    if (!(is_unit(normal(f)) && is_length(std::abs(plane_d(f))))) return "planes_";
+    if (f >= face_count() &&
+        (normal(f) != normal(face_count() - 1) || plane_d(f) != plane_d(face_count() - 1)))
+      return "planes_";
+  }
+  for (std::size_t f = 0; f < face_count(); ++f)
+    if (face_first_[f] + 3 > face_first_[f + 1]) return "face_first_";
+  if (!all_below(corners_, vertex_count_)) return "corners_";
+  for (const Edge& edge : edges_)
+    if (edge.from >= vertex_count_ || edge.to >= vertex_count_ || edge.left >= face_count() ||
+        edge.right >= face_count())
+      return "edges_";
+  if (edges_.size() != corners_.size() / 2) return "edges_";
+  if (!is_length(reach_)) return "reach_";
+  if (!is_length(core_radius_)) return "core_radius_";
+  return is_length(inner_radius_) ? nullptr : "inner_radius_";
 }
 
 /// Returns the half edges sorted by their vertices, so that the two of an edge are neighbours; two

@@ -77,6 +77,8 @@ class Hull {
                     self.vertex_count_, self.center_, self.reach_, self.core_radius_,
                     self.inner_radius_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   struct HalfEdge {

@@ -2,6 +2,7 @@
 #include "solver/rigid/body/key_map.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
@@ -16,6 +17,21 @@ std::uint32_t KeyMap::find(std::uint64_t key) const {
     if (entries_[i].key == key) return entries_[i].slot;
     if (entries_[i].key == kEmpty) return kAbsent;
   }
+}
+
+const char* KeyMap::wrong_field() const {
+  if (!entries_.empty() && !std::has_single_bit(entries_.size())) return "entries_";
+  const auto is_empty = [](const Entry& entry) { return entry.key == kEmpty; };
+  const auto empty = static_cast<std::size_t>(std::ranges::count_if(entries_, is_empty));
+  if (entries_.size() - empty != count_ || 2 * count_ > entries_.size()) return "count_";
+  for (const Entry& entry : entries_) {
+    if (is_empty(entry)) continue;
+    std::size_t i = home(entry.key);
+    while (!is_empty(entries_[i]) && entries_[i].key != entry.key)
+      i = (i + 1) & (entries_.size() - 1);
+    if (&entries_[i] != &entry) return "entries_";
+  }
+  return nullptr;
 }
 
 void KeyMap::expect(std::size_t more) {

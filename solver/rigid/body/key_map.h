@@ -21,6 +21,10 @@ class KeyMap {
   void expect(std::size_t more);  ///< Reserves memory for `more` keys.
 
   static auto fields(auto& self) { return std::tie(self.entries_, self.count_); }
+  /// Returns the number of keys.
+  std::size_t size() const { return count_; }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   struct Entry {

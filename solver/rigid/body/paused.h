@@ -38,6 +38,13 @@ class Paused {
   }
 
   static auto fields(auto& self) { return std::tie(self.items_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field(const Bodies& bodies) const {
+    const auto is_wrong = [&](const Item& item) {
+      return item.body.value >= bodies.size() || !bodies.dynamic(item.body);
+    };
+    return std::ranges::any_of(items_, is_wrong) ? "items_" : nullptr;
+  }
 
  private:
   struct Item {

@@ -19,6 +19,9 @@ class BoxForest {
   void add(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> items);
   /// Removes an item that is in the forest.
   void remove(ShapeSlot item);
+  bool contains(ShapeSlot item) const;
+  /// Returns the number of items.
+  std::size_t size() const;
   /// Calls hit(item) for each item whose box overlaps `query`.
   template <class Hit>
   void overlaps(const FloatBox& query, const Hit& hit) const {
@@ -31,6 +34,8 @@ class BoxForest {
   }
 
   static auto fields(auto& self) { return std::tie(self.trees_, self.place_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   struct Place {

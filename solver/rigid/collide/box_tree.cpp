@@ -38,6 +38,23 @@ void BoxTree::build(const ByShape<FloatBox>& boxes, std::span<const ShapeSlot> i
   refit(boxes);
 }
 
+const char* BoxTree::wrong_field() const {
+  const FloatBox none;
+  std::size_t count = items_.size();
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    if (levels_[level].size() != lane_groups(static_cast<std::uint32_t>(count))) return "levels_";
+    for (std::size_t i = 0; i < levels_[level].size() * kLanes; ++i) {
+      const FloatBox box = levels_[level][i / kLanes].get(i % kLanes);
+      if (!box.min.allFinite() || !box.max.allFinite()) return "levels_";
+      // What is not there has a box that nothing meets.
+      const bool is_there = i < count && (level > 0 || !items_[i].none());
+      if (!is_there && (box.min != none.min || box.max != none.max)) return "levels_";
+    }
+    count = levels_[level].size();
+  }
+  return items_.empty() || (!levels_.empty() && count == 1) ? nullptr : "levels_";
+}
+
 void BoxTree::refit(const ByShape<FloatBox>& boxes) {
   if (items_.empty()) return;
   for_chunks(levels_[0].size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -79,12 +79,17 @@ class BoxTree {
   void remove_leaf(std::uint32_t leaf);
 
   static auto fields(auto& self) { return std::tie(self.items_, self.levels_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 
  private:
   struct Chunk {
     Wide3 min, max;
 
     void set(std::size_t lane, const FloatBox& box);
+    FloatBox get(std::size_t lane) const {
+      return {{min.x[lane], min.y[lane], min.z[lane]}, {max.x[lane], max.y[lane], max.z[lane]}};
+    }
     FloatBox bounds() const;
   };
   void fit_inner_levels();

@@ -5,6 +5,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/parallel.h"
+#include "engine/base/state_checks.h"
 #include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
@@ -100,6 +101,69 @@ void BroadPhase::add(std::span<const ShapeSlot> added, const Shapes& shapes, con
       new_statics_.push_back(s);
     }
   }
+}
+
+const char* BroadPhase::wrong_field() const {
+  const std::size_t shapes = role_.size();
+  if (!have_size(shapes, swept_, fat_, moved_, has_skipped_, half_space_of_)) return "role_";
+  const auto is_box = [](const FloatBox& box) {
+    const bool is_empty = box.min == FloatBox().min && box.max == FloatBox().max;
+    return is_empty ||
+           (is_within(box.min, double{kMostBox_m}) && is_within(box.max, double{kMostBox_m}));
+  };
+  if (!std::ranges::all_of(swept_, is_box)) return "swept_";
+  if (!std::ranges::all_of(fat_, is_box)) return "fat_";
+  const auto have_role = [&](std::span<const ShapeSlot> some, Role role) {
+    return are_different_below(some, shapes) &&
+           std::ranges::all_of(some, [&](ShapeSlot s) { return role_[s] == role; });
+  };
+  const std::span<const ShapeSlot> leaves = mover_tree_.leaves();
+  if (!are_different_below(movers_, shapes)) return "movers_";
+  if (!are_different_below(leaves, shapes)) return "mover_tree_";
+  if (!movers_changed_) {
+    const auto movers = static_cast<std::size_t>(std::ranges::count(role_, Role::kMover));
+    if (!have_role(movers_, Role::kMover) || movers_.size() != movers) return "movers_";
+    if (!have_role(leaves, Role::kMover) || leaves.size() != movers) return "mover_tree_";
+  }
+  if (!have_role(new_statics_, Role::kStatic)) return "new_statics_";
+  if (!are_different_below(moved_list_, shapes)) return "moved_list_";
+  for (std::size_t i = 0; i < half_spaces_.size(); ++i) {
+    const HalfSpace& half = half_spaces_[i];
+    if (half.shape.value >= shapes || role_[half.shape] != Role::kHalfSpace ||
+        half_space_of_[half.shape] != static_cast<std::int32_t>(i))
+      return "half_spaces_";
+  }
+  std::size_t in_forest = 0;
+  for (const ShapeSlot s : role_.slots()) {
+    const bool is_new = std::ranges::find(new_statics_, s) != new_statics_.end();
+    if (role_[s] == Role::kStatic && !is_new) {
+      if (!static_forest_.contains(s)) return "static_forest_";
+      ++in_forest;
+    }
+    const std::int32_t half = half_space_of_[s];
+    if (role_[s] == Role::kHalfSpace
+            ? half < 0 || static_cast<std::size_t>(half) >= half_spaces_.size()
+            : half != -1)
+      return "half_space_of_";
+  }
+  if (in_forest != static_forest_.size()) return "static_forest_";
+  return refits_ >= 0 && refits_ <= kRefitsPerBuild ? nullptr : "refits_";
+}
+
+const char* BroadPhase::wrong_field(const Shapes& shapes) const {
+  if (role_.size() != shapes.size()) return "role_";
+  for (const ShapeSlot s : role_.slots()) {
+    const Shape& shape = shapes[s];
+    if ((role_[s] == Role::kAbsent) != shape.body.none()) return "role_";
+    if (role_[s] == Role::kAbsent) continue;
+    if ((role_[s] == Role::kHalfSpace) != (shape.kind == ShapeDesc::Kind::kHalfSpace))
+      return "role_";
+  }
+  return nullptr;
+}
+
+bool is_in_order(const Pair& pair, const Shapes& shapes) {
+  return pair_of(pair.shape_a, pair.shape_b, shapes).shape_a == pair.shape_a;
 }
 
 void BroadPhase::remove(std::span<const ShapeSlot> removed) {

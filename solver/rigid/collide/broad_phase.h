@@ -80,6 +80,10 @@ class BroadPhase {
                     self.half_space_of_, self.mover_tree_, self.static_forest_,
                     self.movers_changed_, self.test_all_, self.refits_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
+  /// As wrong_field(), of the shapes that are in it.
+  const char* wrong_field(const Shapes& shapes) const;
 
  private:
   enum class Role : std::uint8_t { kAbsent, kMover, kStatic, kHalfSpace };
@@ -125,5 +129,8 @@ class BroadPhase {
   bool test_all_ = false;
   int refits_ = 0;
 };
+
+/// Returns true if the shapes of a pair are in the order in which they are tested.
+bool is_in_order(const Pair& pair, const Shapes& shapes);
 
 }  // namespace sunder::solver

@@ -104,6 +104,8 @@ struct Manifold {
     return sum;
   }
   Vec3f impulse_W() const { return normal_impulse() * normal_W + friction_impulse_W; }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 };
 
 /// True if a solve includes the manifold: it has points, and a or b is awake.
@@ -135,6 +137,11 @@ struct Contacts {
   void add_manifold(PairSlot pair, const Manifold& manifold, const Bodies& bodies);
   /// Removes the manifold of a pair that ceased to touch.
   void remove_manifold(PairSlot pair);
+
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
+  /// As wrong_field(), of the bodies and shapes that touch.
+  const char* wrong_field(const Bodies& bodies, const Shapes& shapes) const;
 };
 
 }  // namespace sunder::solver

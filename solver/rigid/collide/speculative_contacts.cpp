@@ -2,6 +2,7 @@
 #include "solver/rigid/collide/speculative_contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -75,6 +76,32 @@ double closing_speed(const Manifold& m, const Bodies& bodies, const Vec3f& arm_A
   const Vec3 v_b =
       bodies.velocity[b] + bodies.angular_velocity[b].cross(Vec3(arm_B.cast<double>()));
   return m.normal_W.cast<double>().dot(v_a - v_b);
+}
+
+const char* SpeculativeContacts::wrong_field(const Contacts& contacts, const Bodies& bodies,
+                                             const Shapes& shapes) const {
+  if (stale_.size() > bodies.size()) return "stale_";
+  for (const Pair& pair : contacts.pairs)
+    if (pair.present() && std::max(pair.body_a, pair.body_b).value >= stale_.size())
+      return "stale_";
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    const auto& [key, contact] = known_[i];
+    if (i > 0 && known_[i - 1].first >= key) return "known_";
+    if (!(contact.speed_m_s > 0 && contact.effective_mass_kg > 0)) return "known_";
+    if (!(std::abs(contact.normal_W.squaredNorm() - 1) < 1e-6)) return "known_";
+    if (!bodies.contains(contact.a) || !bodies.contains(contact.b)) continue;  // to be dropped
+    if (stale_[BodySlot(contact.a.slot)] || stale_[BodySlot(contact.b.slot)]) continue;
+    const PairSlot slot = contacts.slot(key);
+    if (slot.none() || slot.value >= contacts.pairs.size()) return "known_";
+    const Pair& pair = contacts.pairs[slot];
+    if (pair.body_a.value != contact.a.slot || pair.body_b.value != contact.b.slot ||
+        bodies.tag[pair.body_a] != contact.body_tag_a ||
+        bodies.tag[pair.body_b] != contact.body_tag_b ||
+        shapes[pair.shape_a].tag != contact.shape_tag_a ||
+        shapes[pair.shape_b].tag != contact.shape_tag_b)
+      return "known_";
+  }
+  return nullptr;
 }
 
 void SpeculativeContacts::invalidate_changed(const Bodies& bodies) {

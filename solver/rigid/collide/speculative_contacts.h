@@ -26,6 +26,9 @@ class SpeculativeContacts {
   void invalidate_changed(const Bodies& bodies);
 
   static auto fields(auto& self) { return std::tie(self.known_, self.dt_s_, self.stale_); }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field(const Contacts& contacts, const Bodies& bodies,
+                          const Shapes& shapes) const;
 
  private:
   using Keyed = std::pair<std::uint64_t, SpeculativeContact>;

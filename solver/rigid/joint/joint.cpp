@@ -1,7 +1,10 @@
 #include "solver/rigid/joint/joint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "engine/base/state_checks.h"
 
 namespace sunder::solver {
 namespace {
@@ -29,6 +32,33 @@ void wake_body(BodySlot body, Bodies& bodies) {
 }
 
 }  // namespace
+
+const char* Joints::wrong_field(const Bodies& bodies) const {
+  std::size_t present = 0;
+  for (const Joint& joint : items_) {
+    if (!joint.present) continue;
+    ++present;
+    const JointDesc& desc = joint.desc;
+    for (const auto& [id, slot] :
+         {std::pair(desc.a, joint.body_a), std::pair(desc.b, joint.body_b)}) {
+      if (slot.none() && !joint.lost && !id.none()) return "items_";
+      if (slot.none()) continue;
+      if (!bodies.contains(id) || id.slot != slot.value) return "items_";
+    }
+    if (joint.body_a == joint.body_b && !joint.lost) return "items_";
+    if (!is_unit(desc.axis_a_R) || !is_unit(desc.axis_b_R)) return "items_";
+    if (!(desc.length_m >= 0 && desc.breaking_N >= 0 && desc.breaking_Nm >= 0)) return "items_";
+    if (desc.kind == JointKind::kPlastic && !has_strength(desc.strength)) return "items_";
+  }
+  if (!are_different_below(free_slots_, size()) || free_slots_.size() + present != size())
+    return "free_slots_";
+  for (const std::uint32_t slot : free_slots_)
+    if (items_[slot].present) return "free_slots_";
+  Joints same = *this;
+  same.update_ignored_pairs(bodies);
+  if (ignored_pairs_ != same.ignored_pairs_) return "ignored_pairs_";
+  return ignored_shapes_ == same.ignored_shapes_ ? nullptr : "ignored_shapes_";
+}
 
 Joint& Joints::at(JointId id) {
   SUNDER_CHECK(id.slot < size() && items_[id.slot].present &&

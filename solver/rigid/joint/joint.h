@@ -89,6 +89,8 @@ class Joints {
     return std::tie(self.items_, self.free_slots_, self.ignored_pairs_, self.ignored_shapes_,
                     self.broken_);
   }
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field(const Bodies& bodies) const;
 
  private:
   void wake_ends(const Joint& joint, Bodies& bodies) const;
