@@ -266,7 +266,7 @@ class Archive {
   struct Place {
     std::string_view type;    ///< The class that it is of.
     std::size_t field = 0;    ///< Its number, from 0.
-    std::size_t element = 0;  ///< Of the field, if it is a sequence.
+    std::size_t element = 0;  ///< Index in the field, if it is a sequence.
   };
 
   [[noreturn]] void refuse(const std::string& what) const {

@@ -97,7 +97,7 @@ struct Drive {
 
 /// Moves solids along a path as kinematic, unbreakable bodies of infinite mass until `release_s`.
 struct Move {
-  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  static constexpr bool kMayBeInfinite = true;  ///< Its numbers may be infinite (archive.h).
   /// Indices of solids; none is anchored, or jointed to a body that is not free.
   std::vector<std::uint32_t> roots;
   Path path;

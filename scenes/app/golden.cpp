@@ -88,7 +88,7 @@ std::string size_of(const render::Image& image) {
   return std::to_string(image.width) + "x" + std::to_string(image.height);
 }
 
-/// What a picture is drawn from.
+/// Frames that a picture is drawn from.
 struct Subject {
   FramePtr frame;
   FramePtr before;  ///< Picture before in a film; null if it is not needed.
