@@ -16,11 +16,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Removes all times, which differ from run to run.
+/// Removes all times and the memory, which differ from run to run.
 void remove_times(Json& json) {
   if (json.is_object()) {
     for (auto it = json.begin(); it != json.end();) {
-      const bool is_time = it.key().ends_with("_ms") || it.key() == "ms" || it.key() == "ns_each";
+      const bool is_time = it.key().ends_with("_ms") || it.key() == "ms" || it.key() == "ns_each" ||
+                           it.key() == "memory_MB";
       if (!is_time) remove_times(*it);
       it = is_time ? json.erase(it) : std::next(it);
     }
