@@ -222,6 +222,17 @@ def a_file_of_another_kind(chance, folder):
     return made(chance, folder, kind, (folder / source).read_bytes()), ["wrong."]
 
 
+def a_nested_file(chance, folder):
+    """Makes a file of thousands of keys, tables or arrays within each other."""
+    deep = chance.choice([40, 300, 20000, 200000])
+    kind, text = chance.choice([("toml", "a" + ".a" * deep + " = 1"), ("toml", "[a" + ".a" * deep + "]"),
+                                ("toml", "[[a" + ".a" * deep + "]]"), ("toml", "a = " + "[" * deep + "]" * deep),
+                                ("toml", "a = " + "{a = " * deep + "1" + "}" * deep),
+                                ("json", "[" * deep + "]" * deep), ("json", '{"a":' * deep + "1" + "}" * deep)])
+    start = (folder / "a.toml").read_text() if kind == "toml" else ""
+    return made(chance, folder, kind, (start + text).encode()), ["wrong."]
+
+
 def made(chance, folder, kind, content):
     """Writes a file with that content, before the folder is compared; returns a command that reads it."""
     (folder / f"wrong.{kind}").write_bytes(content)
@@ -258,7 +269,7 @@ def something_missing(chance, _):
 
 
 MAKERS = [(a_wrong_value, 8), (a_wrong_key, 4), (a_misspelt_option, 2), (a_misspelt_command, 1), (a_misspelt_key, 2),
-          (a_file_cut_short, 3), (a_file_of_noise, 2), (a_file_of_another_kind, 3), (no_such_file, 2),
+          (a_file_cut_short, 3), (a_file_of_noise, 2), (a_nested_file, 2), (a_file_of_another_kind, 3), (no_such_file, 2),
           (no_such_place, 2), (an_output_that_is_read, 1), (something_missing, 2)]
 
 
