@@ -1,5 +1,6 @@
 # Writes a digest of the sources that determine what a saved state means: those of the engine, the
 # solver and the fractures. Usage: cmake -D ROOT=... -D OUT=... -P source_digest.cmake
+cmake_minimum_required(VERSION 3.25)
 set(all "")
 foreach(module engine fracture solver)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${module}/*.h ${ROOT}/${module}/*.cpp)

@@ -320,6 +320,8 @@ class Archive {
       sequence(object);
     } else if constexpr (internal::Ordered<T>) {
       ordered(object);
+    } else if constexpr (internal::kIsOptional<T>) {
+      optional<infinite>(object);
     } else if constexpr (requires { special(object); }) {
       special(object);
     } else {
@@ -443,13 +445,13 @@ class Archive {
     one(both.first);
     one(both.second);
   }
-  template <class T>
-  void special(std::optional<T>& object) {
+  template <bool infinite, class T>
+  void optional(std::optional<T>& object) {
     bool present = object.has_value();
     one(present);
     if (!present) return object.reset();
     if (reads_) object.emplace();
-    one(*object);
+    one<T, infinite>(*object);
   }
   template <class T>
   void special(std::shared_ptr<T>& pointer) {

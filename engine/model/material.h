@@ -58,7 +58,8 @@ struct PatternSpec {
 
 /// Pattern and radius for impacts above an energy.
 struct ImpactResponse {
-  double energy_J = 0;  ///< Least energy of the impact.
+  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  double energy_J = 0;                          ///< Least energy of the impact.
   PatternSpec pattern;
   double impact_radius_m = 1;
 };
@@ -68,6 +69,7 @@ using MaterialIndex = Index<MaterialTag>;
 
 /// Mechanical and visual properties of a solid.
 struct Material {
+  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
   std::string name;
   double density_kg_m3 = 2000;
   double friction = 0.6;

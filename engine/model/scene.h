@@ -87,6 +87,7 @@ struct Removal {
 
 /// Holds bodies at a velocity by limited force, an angular velocity by limited torque, or both.
 struct Drive {
+  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
   double time_s = 0, until_s = 0;
   std::vector<std::uint32_t> roots;  ///< As in Removal; a body is driven until it breaks.
   std::optional<Vec3> velocity_W;

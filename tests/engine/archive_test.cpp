@@ -176,6 +176,7 @@ struct Chosen {
 struct Unlimited {
   static constexpr bool kMayBeInfinite = true;
   double most = std::numeric_limits<double>::infinity();
+  std::optional<double> if_any = most;
 };
 
 /// Writes one object, reads its bytes as another class, and returns why they are refused.
@@ -210,7 +211,7 @@ TEST(Archive, RefusesValuesThatAreNone) {
   expect(refusal<std::vector<Padded>>(std::vector<Padded>{{}, {1, kNaN, Kind::kFirst, {}}}),
          "Padded, field 1");
   EXPECT_EQ(refusal<Unlimited>(Unlimited()), "");
-  expect(refusal<Unlimited>(Unlimited{kNaN}), "not finite");
+  expect(refusal<Unlimited>(Unlimited{kNaN, {}}), "not finite");
 }
 
 TEST(Archive, RefusesWhatAClassFindsWrongAndNamesTheField) {
