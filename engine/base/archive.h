@@ -12,12 +12,12 @@
 // have equal bytes. They can be read by the same build of the program on machines of equal byte
 // order.
 //
-// What is read is not trusted. Counts are held against the bytes that are there, enums have to be
-// enumerators, numbers finite (or infinite, where infinity is a value), rotations of unit length,
-// and keys ascending. A class says what else has to hold of its fields, such as indices within
-// their arrays, in `const char* wrong_field() const`, which returns the name of a field that is
-// wrong, or null. It is called once the object has been read, and may rely on the wrong_field() of
-// the objects in it.
+// Bytes that are read are not trusted. Counts are held against the bytes that are there, enums have
+// to be enumerators, numbers finite (or infinite, where infinity is a value), rotations of unit
+// length, and keys ascending. A class says what else has to hold of its fields, such as indices
+// within their arrays, in `const char* wrong_field() const`, which returns the name of a field that
+// is wrong, or null. It is called once the object has been read, and may rely on the wrong_field()
+// of the objects in it.
 #pragma once
 
 #include <array>
@@ -266,7 +266,7 @@ class Archive {
   struct Place {
     std::string_view type;    ///< The class that it is of.
     std::size_t field = 0;    ///< Its number, from 0.
-    std::size_t element = 0;  ///< Index in the field, if it is a sequence.
+    std::size_t element = 0;  ///< Its element, if it is a sequence.
   };
 
   [[noreturn]] void refuse(const std::string& what) const {

@@ -21,7 +21,7 @@ enum class JointKind : std::uint8_t {
 
 /// A joint between two things of the scene, or to the world, in their poses at the start.
 struct Joint {
-  static constexpr bool kMayBeInfinite = true;  ///< Its numbers may be infinite (archive.h).
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   JointKind kind = JointKind::kBall;
   /// Indices of solids, then of balls; none: the world.
   std::optional<std::uint32_t> a = std::nullopt, b = std::nullopt;

@@ -58,7 +58,7 @@ struct PatternSpec {
 
 /// Pattern and radius for impacts above an energy.
 struct ImpactResponse {
-  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   double energy_J = 0;                          ///< Least energy of the impact.
   PatternSpec pattern;
   double impact_radius_m = 1;
@@ -69,7 +69,7 @@ using MaterialIndex = Index<MaterialTag>;
 
 /// Mechanical and visual properties of a solid.
 struct Material {
-  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   std::string name;
   double density_kg_m3 = 2000;
   double friction = 0.6;

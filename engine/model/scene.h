@@ -87,7 +87,7 @@ struct Removal {
 
 /// Holds bodies at a velocity by limited force, an angular velocity by limited torque, or both.
 struct Drive {
-  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   double time_s = 0, until_s = 0;
   std::vector<std::uint32_t> roots;  ///< As in Removal; a body is driven until it breaks.
   std::optional<Vec3> velocity_W;
@@ -98,7 +98,7 @@ struct Drive {
 
 /// Moves solids along a path as kinematic, unbreakable bodies of infinite mass until `release_s`.
 struct Move {
-  static constexpr bool kMayBeInfinite = true;  ///< Its numbers may be infinite (archive.h).
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   /// Indices of solids; none is anchored, or jointed to a body that is not free.
   std::vector<std::uint32_t> roots;
   Path path;

@@ -13,7 +13,7 @@ struct Wrench {
 
 /// Fully plastic strength of a plane section: the loads at which all of it yields.
 struct SectionStrength {
-  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   /// Unit columns, right-handed: the section's normal, and two directions in the section.
   Mat3 axes_R = Mat3::Identity();
   double axial_N = 0;             ///< Axial force alone, in tension or compression.
@@ -23,7 +23,7 @@ struct SectionStrength {
 
 /// A yielding section, which tears when its elongation is exceeded.
 struct PlasticSection {
-  static constexpr bool kMayBeInfinite = true;  ///< Of a number: see archive.h.
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   Vec3 centroid_R = Vec3::Zero();
   SectionStrength strength;     ///< Initial strength, before hardening.
   Vec3 reach_m = Vec3::Zero();  ///< Distance from each axis to the farthest point.

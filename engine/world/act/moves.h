@@ -29,7 +29,7 @@ class Moves {
 
  private:
   struct Active {
-    static constexpr bool kMayBeInfinite = true;  ///< Its numbers may be infinite (archive.h).
+    static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
     std::uint32_t key = 0;
     Pose start_X_WR;
     double start_s = 0;

@@ -20,7 +20,7 @@ namespace sunder {
 
 /// Loads on an actor, and the state of the stress solution for them.
 struct StressState {
-  static constexpr bool kMayBeInfinite = true;  ///< Its numbers may be infinite (archive.h).
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   bool breakable = false;                       ///< Load can break the actor.
   bool settled = false;          ///< The stress solve for the evaluated loads is complete.
   std::uint64_t since_step = 0;  ///< First step with unevaluated loads, if not settled.
@@ -44,7 +44,7 @@ inline constexpr MeshIndex kMeshPending = MeshIndex(0xfffffffe);
 
 /// A solid in the world: its structure, its body in the physics and its meshes.
 struct Actor {
-  static constexpr bool kMayBeInfinite = true;  ///< Its numbers may be infinite (archive.h).
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   std::uint32_t key = 0;             ///< Unique in a run, ascending with age; the tag of its body.
   std::uint32_t root_key = 0;        ///< Key of the solid or ball of the scene that it came from.
   std::uint32_t last_frame_key = 0;  ///< Key under which the last frame showed it or its parent.

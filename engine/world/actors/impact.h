@@ -12,7 +12,7 @@ namespace sunder {
 
 /// An impact that may break an actor: by a body, by a blast, or by the program.
 struct ActorImpact {
-  static constexpr bool kMayBeInfinite = true;  ///< Its numbers may be infinite (archive.h).
+  static constexpr bool kMayBeInfinite = true;  ///< Numbers may be infinite: archive.h.
   std::uint32_t key = 0;                        ///< Key of the struck actor.
   ConvexSlot convex;                            ///< Struck convex.
   Vec3 point_W = Vec3::Zero();

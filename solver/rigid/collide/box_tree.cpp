@@ -46,7 +46,7 @@ const char* BoxTree::wrong_field() const {
     for (std::size_t i = 0; i < levels_[level].size() * kLanes; ++i) {
       const FloatBox box = levels_[level][i / kLanes].get(i % kLanes);
       if (!box.min.allFinite() || !box.max.allFinite()) return "levels_";
-      // What is not there has a box that nothing meets.
+      // Leaves that are not there have a box that nothing meets.
       const bool is_there = i < count && (level > 0 || !items_[i].none());
       if (!is_there && (box.min != none.min || box.max != none.max)) return "levels_";
     }
