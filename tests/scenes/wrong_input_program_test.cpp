@@ -125,7 +125,7 @@ TEST_F(WrongInput, IsNamed) {
       {"bench a.toml --repeats 0", "from 1 to 1000"},
       {"bench a.toml --compare nope.json", "nope.json"},
       {"bench a.toml --against nope", "not a program"},
-      {"bench a.toml --fail-slower 10%", "needs --compare"},
+      {"bench a.toml --fail-slower 10%", "needs --against"},
       {"trade a.toml --seeds 0", "from 1 to 10000"},
       {"trade a.toml --shard 3/2", "3/2"},
       {"trade a.toml --list --switch =1", "KEY=VALUE"},
