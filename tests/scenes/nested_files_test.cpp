@@ -57,7 +57,7 @@ TEST(NestedFiles, FlagsAreRefusedInAShortMessage) {
   }
 }
 
-// What stands in strings and comments, and what is beside each other, is not nested.
+// Brackets in strings and comments, and tables beside each other, do not count as nested.
 TEST(NestedFiles, DotsAndBracketsThatDoNotNestAreAccepted) {
   const std::string many = repeated("[.{", 100);
   const std::string good[] = {
