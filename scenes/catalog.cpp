@@ -38,10 +38,10 @@ std::string description(const fs::path& file) {
 
 }  // namespace
 
-fs::path scenes_folder(const fs::path& folder) {
+fs::path scenes_folder(const fs::path& folder, const fs::path& program) {
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path above = program.parent_path().parent_path();
+  const fs::path file = program.empty() ? fs::read_symlink("/proc/self/exe", ignored) : program;
+  const fs::path above = file.parent_path().parent_path();
   const fs::path installed = above / "share/sunder/scenes";
   if (fs::is_directory(installed)) return installed;
   // A program in the build folder of a source tree has the scenes of that tree, wherever it is now.

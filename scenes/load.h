@@ -48,11 +48,12 @@ struct CatalogEntry {
 };
 /// Returns the scenes that come with the program, sorted by name.
 std::vector<CatalogEntry> catalog(const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
-/// Returns the folder of the catalogue: share/sunder/scenes beside the running program if that is
-/// installed; scenes/ of the source tree if the program is in a folder of one, such as build/;
-/// otherwise `folder`, which is the one installed with the library, or that of the source tree in
-/// which the program was built. Throws InputError if none exists.
-std::filesystem::path scenes_folder(const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
+/// Returns the folder of the catalogue: share/sunder/scenes beside `program`, the running one
+/// unless it is named, if that is installed; scenes/ of the source tree if the program is in a
+/// folder of one, such as build/; otherwise `folder`, which is the one installed with the library,
+/// or that of the source tree in which the program was built. Throws InputError if none exists.
+std::filesystem::path scenes_folder(const std::filesystem::path& folder = SUNDER_SCENES_FOLDER,
+                                    const std::filesystem::path& program = {});
 
 /// Returns every table and key of a scene file with unit, default and allowed values, as Markdown.
 std::string key_reference();
