@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/base/state_checks.h"
 #include "engine/geometry/polygon_mesh.h"
+#include "fracture/stress/spring_math.h"
 
 namespace sunder::fracture {
 namespace {
@@ -123,6 +125,14 @@ std::vector<Vec3> bond_corners(const Compound& compound, const Bond& bond) {
     corners.insert(corners.end(), contour.begin(), contour.end());
   }
   return corners.empty() ? common_polygon(compound, bond) : corners;
+}
+
+const char* BondGeometry::wrong_field() const {
+  if (!is_within(centroid_R, kMostShape_m)) return "centroid_R";
+  if (!is_unit(normal_R)) return "normal_R";
+  if (!is_bounded(area_m2, kMostShape_m)) return "area_m2";
+  if (!is_semidefinite(second_moment, kMostShape_m)) return "second_moment";
+  return is_bounded(reach_m, kMostShape_m) ? nullptr : "reach_m";
 }
 
 BondGeometry bond_geometry(const Compound& compound, const Bond& bond) {

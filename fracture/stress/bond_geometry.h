@@ -15,6 +15,9 @@ struct BondGeometry {
   double area_m2 = 0;
   Mat3 second_moment = Mat3::Zero();  ///< ∫ r rᵀ dA about the centroid, m⁴.
   double reach_m = 0;                 ///< Distance from the centroid to the farthest corner.
+
+  /// Returns the name of a field that is wrong, for saved states; null if none is.
+  const char* wrong_field() const;
 };
 
 /// Returns the geometry of a bond of the compound; the area is 0 if the faces do not overlap.

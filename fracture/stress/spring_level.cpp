@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Dense>
-
 #include "engine/base/parallel.h"
 #include "engine/base/state_checks.h"
 #include "fracture/stress/spring_math.h"
@@ -21,12 +19,7 @@ const char* Spring::wrong_field() const {
   if (a == kWorld && b == kWorld) return "a";
   if (!is_within(place, kMostPlace_m)) return "place";
   if (!is_bounded(stretch_N_m, kMostStiffness_N_m)) return "stretch_N_m";
-  if (!is_within(rotation_Nm, kMostStiffness_N_m)) return "rotation_Nm";
-  const double size = 1e-6 * rotation_Nm.norm();
-  const bool is_symmetric = (rotation_Nm - rotation_Nm.transpose()).norm() <= size;
-  Eigen::SelfAdjointEigenSolver<Mat3> axes;
-  axes.computeDirect(rotation_Nm, Eigen::EigenvaluesOnly);
-  return is_symmetric && axes.eigenvalues().minCoeff() >= -size ? nullptr : "rotation_Nm";
+  return is_semidefinite(rotation_Nm, kMostStiffness_N_m) ? nullptr : "rotation_Nm";
 }
 
 template <class Real>

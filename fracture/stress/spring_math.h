@@ -3,6 +3,9 @@
 
 #include <limits>
 
+#include <Eigen/Eigenvalues>
+
+#include "engine/base/state_checks.h"
 #include "fracture/stress/simd4.h"
 
 namespace sunder::fracture {
@@ -33,6 +36,17 @@ inline Mat3 cross_matrix(const Vec3& arm) {
   Mat3 m;
   m << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
   return m;
+}
+
+/// Returns true if a matrix is symmetric, has no negative eigenvalue, but for rounding, and has no
+/// element beyond `most`; for saved states.
+inline bool is_semidefinite(const Mat3& m, double most) {
+  if (!is_within(m, most)) return false;
+  const double rounding = 1e-6 * m.norm();
+  if ((m - m.transpose()).norm() > rounding) return false;
+  Eigen::SelfAdjointEigenSolver<Mat3> axes;
+  axes.computeDirect(m, Eigen::EigenvaluesOnly);
+  return axes.eigenvalues().minCoeff() >= -rounding;
 }
 
 }  // namespace sunder::fracture

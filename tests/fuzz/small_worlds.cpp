@@ -13,7 +13,8 @@ constexpr double kFrame_s = 1.0 / 60;
 
 struct SmallWorld {
   const char* toml;
-  int frames;  ///< Frames before it is saved.
+  int frames;          ///< Frames before it is saved.
+  bool bends = false;  ///< True if a hinge has yielded by then.
 };
 
 constexpr SmallWorld kWorlds[] = {
@@ -112,6 +113,11 @@ size_m = [0.3, 0.8, 0.3]
 position = [-1, 1, 0]
 material = "brick"
 [script]
+[[script.move]]
+name = "cart"
+[[script.move.key]]
+time_s = 1
+shift = [1, 0, 0]
 [[script.blast]]
 time_s = 0.2
 at = [-1.4, 1, 0]
@@ -119,11 +125,35 @@ radius_m = 2
 impulse_Ns_m2 = 3000
 )",
      11},
+    // A reinforced column in the middle of its bending.
+    {R"([scene]
+description = "x"
+[limits]
+debris = 0
+dust = 0
+[[solid]]
+structure = "reinforced"
+name = "column"
+size_m = [0.4, 1.6, 0.4]
+block_m = 0.4
+bars = 2
+bar_m = 0.012
+anchored = "bottom"
+[script]
+[[script.shot]]
+time_s = 0
+from = [-1, 0.8, 0]
+at = [0, 0.8, 0]
+speed_m_s = 80
+radius_m = 0.25
+)",
+     28, true},
 };
 
 std::vector<std::byte> make_state(const SmallWorld& small) {
   World world = scenes::make_world(scenes::parse_scene(small.toml, "small.toml"));
   for (int i = 0; i < small.frames; ++i) world.step(kFrame_s);
+  SUNDER_CHECK(small.bends == (world.frame()->report.plastic_J > 0));
   return unseal(scenes::save_world(world), "small");
 }
 
