@@ -134,20 +134,20 @@ dust = 0
 [[solid]]
 structure = "reinforced"
 name = "column"
-size_m = [0.4, 1.6, 0.4]
-block_m = 0.4
-bars = 2
-bar_m = 0.012
+size_m = [0.2, 0.6, 0.2]
+block_m = 0.2
+bars = 1
+bar_m = 0.008
 anchored = "bottom"
 [script]
 [[script.shot]]
 time_s = 0
-from = [-1, 0.8, 0]
-at = [0, 0.8, 0]
-speed_m_s = 80
-radius_m = 0.25
+from = [-1, 0.3, 0]
+at = [0, 0.3, 0]
+speed_m_s = 40
+radius_m = 0.12
 )",
-     28, true},
+     18, true},
 };
 
 std::vector<std::byte> make_state(const SmallWorld& small) {
