@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the scene files of the catalogue, sorted by stem. They lie in folders within `folder`;
+/// Returns the scene files of a catalogue, sorted by stem. They lie in folders within `folder`;
 /// files beside these folders, such as materials.toml, are no scenes.
 std::vector<fs::path> catalog_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& group : fs::directory_iterator(scenes_folder(folder))) {
+  for (const fs::directory_entry& group : fs::directory_iterator(folder)) {
     if (!group.is_directory()) continue;
     for (const fs::directory_entry& file : fs::directory_iterator(group)) {
       if (file.path().extension() == ".toml") files.push_back(file.path());
@@ -52,11 +52,12 @@ fs::path scenes_folder(const fs::path& folder, const fs::path& program) {
                    " is a folder; give the path of a scene file");
 }
 
-fs::path scene_file(const std::string& file_or_name, const fs::path& folder) {
+fs::path scene_file(const std::string& file_or_name, const fs::path& folder,
+                    const fs::path& program) {
   if (fs::is_regular_file(file_or_name) || has_ending(file_or_name, ".toml")) return file_or_name;
   std::vector<std::string> names;
   try {
-    for (const fs::path& file : catalog_files(folder)) {
+    for (const fs::path& file : catalog_files(scenes_folder(folder, program))) {
       if (file.stem() == file_or_name) return file;
       names.push_back(file.stem().string());
     }
@@ -72,7 +73,7 @@ fs::path scene_file(const std::string& file_or_name, const fs::path& folder) {
 
 std::vector<CatalogEntry> catalog(const fs::path& folder) {
   std::vector<CatalogEntry> entries;
-  for (const fs::path& file : catalog_files(folder)) {
+  for (const fs::path& file : catalog_files(scenes_folder(folder))) {
     entries.push_back({file.stem().string(), file, description(file)});
   }
   return entries;

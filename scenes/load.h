@@ -23,9 +23,11 @@ struct LoadOptions {
 };
 
 /// Returns the file itself if there is one, otherwise the file of the scene of this name in the
-/// catalogue, scenes_folder(folder). Throws InputError that lists the scenes if there is neither.
+/// catalogue, scenes_folder(folder, program). Throws InputError that lists the scenes if there is
+/// neither.
 std::filesystem::path scene_file(const std::string& file_or_name,
-                                 const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);
+                                 const std::filesystem::path& folder = SUNDER_SCENES_FOLDER,
+                                 const std::filesystem::path& program = {});
 /// Loads scene_file(). Throws InputError that names file, line, key and the allowed values.
 Scene load_scene(const std::string& file_or_name, const LoadOptions& options = {},
                  const std::filesystem::path& folder = SUNDER_SCENES_FOLDER);

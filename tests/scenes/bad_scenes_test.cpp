@@ -319,12 +319,13 @@ TEST(BadFiles, AreNamed) {
   };
   EXPECT_EQ(refused("no/such.toml"), "no/such.toml: cannot be read: there is no such file");
   try {
-    scenes_folder("no/such/folder", "/no/such/bin/sunder");
+    scene_file("house", "no/such/folder", "/no/such/bin/sunder");
     ADD_FAILURE() << "there is no catalogue";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "no catalogue of scenes found: neither /no/such/share/sunder/scenes nor "
-                 "no/such/folder is a folder; give the path of a scene file");
+                 "house: no such file, and no catalogue of scenes found: neither "
+                 "/no/such/share/sunder/scenes nor no/such/folder is a folder; give the path of a "
+                 "scene file");
   }
   EXPECT_TRUE(refused("hause").starts_with(
       "hause: no such file, and no scene of this name; did you mean 'house'?; scenes: "));
