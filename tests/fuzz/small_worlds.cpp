@@ -12,19 +12,16 @@ namespace {
 constexpr double kFrame_s = 1.0 / 60;
 
 struct SmallWorld {
-  const char* toml;
+  int debris, dust;    ///< Limits.
+  const char* toml;    ///< The rest of the scene.
   int frames;          ///< Frames before it is saved.
   bool bends = false;  ///< True if a hinge has yielded by then.
 };
 
 constexpr SmallWorld kWorlds[] = {
     // A stack that falls asleep, a pendulum, a door, a weight on a chain.
-    {R"([scene]
-description = "x"
-[limits]
-debris = 0
-dust = 0
-[[solid]]
+    {0, 0,
+     R"([[solid]]
 structure = "box"
 name = "one"
 size_m = [1, 0.5, 1]
@@ -66,12 +63,8 @@ radius_m = 0.2
 )",
      70},
     // A wall in the middle of its break, with debris and dust.
-    {R"([scene]
-description = "x"
-[limits]
-debris = 200
-dust = 60
-[[solid]]
+    {200, 60,
+     R"([[solid]]
 structure = "box"
 size_m = [1, 1, 0.2]
 position = [0, 0.5, 0]
@@ -87,12 +80,8 @@ radius_m = 0.12
 )",
      8},
     // A hill, a cart on a path, and a blast.
-    {R"([scene]
-description = "x"
-[limits]
-debris = 50
-dust = 0
-[ground]
+    {50, 0,
+     R"([ground]
 height_m = -5
 [[ground.mesh]]
 hills_m = 0.2
@@ -126,12 +115,8 @@ impulse_Ns_m2 = 3000
 )",
      11},
     // A reinforced column in the middle of its bending.
-    {R"([scene]
-description = "x"
-[limits]
-debris = 0
-dust = 0
-[[solid]]
+    {0, 0,
+     R"([[solid]]
 structure = "reinforced"
 name = "column"
 size_m = [0.2, 0.6, 0.2]
@@ -151,7 +136,10 @@ radius_m = 0.12
 };
 
 std::vector<std::byte> make_state(const SmallWorld& small) {
-  World world = scenes::make_world(scenes::parse_scene(small.toml, "small.toml"));
+  const std::string toml =
+      "[scene]\ndescription = \"x\"\n[limits]\ndebris = " + std::to_string(small.debris) +
+      "\ndust = " + std::to_string(small.dust) + "\n" + small.toml;
+  World world = scenes::make_world(scenes::parse_scene(toml, "small.toml"));
   for (int i = 0; i < small.frames; ++i) world.step(kFrame_s);
   SUNDER_CHECK(small.bends == (world.frame()->report.plastic_J > 0));
   return unseal(scenes::save_world(world), "small");
