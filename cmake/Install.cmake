@@ -10,6 +10,7 @@ set(public_headers
   engine/base/loop_times.h
   engine/base/types.h
   engine/geometry/convex_polyhedron.h
+  engine/geometry/hull.h
   engine/io/state_hash.h
   engine/io/statistics.h
   engine/io/recording/recording.h

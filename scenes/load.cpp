@@ -94,12 +94,9 @@ Scene Loader::load(const LoadOptions& options) {
     if (!scene) throw InputError(document_.where + ": missing table [scene]");
     read(s.scene, *scene, {}, scene_);
   });
-  const Preset& preset = presets()[find_named(presets(), options.preset,
-                                              "--preset " + options.preset + ": unknown preset")];
-  scene_.accuracy = preset.accuracy;
-  scene_.solver.sweeps = preset.sweeps;
-  scene_.limits.full_detail = preset.full_detail;
-  scene_.limits.chip_size_factor = preset.chip_size_factor;
+  presets()[find_named(presets(), options.preset,
+                       "--preset " + options.preset + ": unknown preset")]
+      .apply(scene_);
   attempt([&] { read_accuracy(); });
   attempt([&] { read_table(s.solver, "solver", scene_.solver); });
   attempt([&] { read_table(s.limits, "limits", scene_.limits); });

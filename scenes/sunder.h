@@ -14,7 +14,8 @@
 
 #include "engine/base/check.h"                  // InputError, FileError
 #include "engine/base/types.h"                  // Vec3, Quat, Pose, Box
-#include "engine/geometry/convex_polyhedron.h"  // make_box(), make_prism(), make_hull()
+#include "engine/geometry/convex_polyhedron.h"  // make_box(), make_prism()
+#include "engine/geometry/hull.h"               // make_hull()
 #include "engine/io/recording/recording.h"      // RecordingWriter, RecordingReader
 #include "engine/io/state_hash.h"               // hash_state()
 #include "engine/io/statistics.h"               // Statistics, StateHash

@@ -80,6 +80,18 @@ void archive_without_times(Archive& bytes, Events& of) {
   if (bytes.reads()) of = std::move(events);
 }
 
+/// Counts the queries that are not finished, whose filters may call functions of the program.
+class Query {
+ public:
+  explicit Query(int& count) : count_(count) { ++count_; }
+  ~Query() { --count_; }
+  Query(const Query&) = delete;
+  Query& operator=(const Query&) = delete;
+
+ private:
+  int& count_;
+};
+
 /// A body, and whether it slept, at the end of a step.
 struct Known {
   std::uint32_t key = 0;
@@ -91,15 +103,23 @@ struct Known {
 struct Asset::Data {
   Compound compound;
   Structure structure;
+  MaterialNames materials;  ///< Of those given, the materials of its convexes.
 };
 
-Asset::Asset(Compound compound) {
+Asset::Asset(Compound compound, MaterialNames materials) {
   ItemCheck("Asset(): ", {}).convexes(compound, "compound");  // worlds know the materials
+  std::erase_if(materials, [&](const auto& given) {
+    return std::ranges::none_of(compound.convexes, [&](const ConvexPtr& convex) {
+      return convex->material == given.first;
+    });
+  });
   Structure structure(compound);
-  data_ = std::make_shared<const Data>(Data{std::move(compound), std::move(structure)});
+  data_ = std::make_shared<const Data>(
+      Data{std::move(compound), std::move(structure), std::move(materials)});
 }
 
 const Compound& Asset::compound() const { return data_->compound; }
+const Asset::MaterialNames& Asset::materials() const { return data_->materials; }
 
 /// The state of the world, its stages, and what was found of it since the last step.
 struct World::Parts {
@@ -120,6 +140,7 @@ struct World::Parts {
   FramePtr frame;                            ///< Of the present state; null if none was asked for.
   mutable std::optional<BodyArrays> arrays;  ///< Likewise.
   mutable std::optional<std::vector<ContactForce>> contacts;  ///< Likewise.
+  mutable int queries = 0;                                    ///< Queries that are not finished.
 
   Parts(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Breaker> breaks_by,
         std::unique_ptr<Particles> moves)
@@ -133,6 +154,13 @@ struct World::Parts {
 
   ItemCheck check(const char* call) const {
     return {std::string("World::") + call + "(): ", *world.materials};
+  }
+  /// As check(), for a call that changes the world; throws during a query.
+  ItemCheck change(const char* call) const {
+    if (queries > 0)
+      check(call).refuse("the world cannot change during a query, whose filter makes this call",
+                         "a call after the query");
+    return check(call);
   }
   /// Returns the actor with a key, for a call; throws if there is none.
   Actor& actor(BodyKey key, const char* call);
@@ -306,7 +334,11 @@ World::World(Scene scene, std::unique_ptr<Physics> physics, std::unique_ptr<Brea
 
 World::World(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 
-World World::copy() const { return World(std::make_unique<Parts>(*parts_)); }
+World World::copy() const {
+  World world(std::make_unique<Parts>(*parts_));
+  world.parts_->queries = 0;
+  return world;
+}
 
 void World::save(Archive& bytes) const {
   // An archive that writes leaves the objects as they are.
@@ -326,12 +358,12 @@ World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
 void World::set_threads(int count) {
-  parts_->check("set_threads").need_number(count, 0, 1024, "count");
+  parts_->change("set_threads").need_number(count, 0, 1024, "count");
   parts_->threads = count;
 }
 
 void World::step(double time_s) {
-  parts_->check("step").need_number(time_s, kShortestStep_s, kLongestStep_s, "time_s");
+  parts_->change("step").need_number(time_s, kShortestStep_s, kLongestStep_s, "time_s");
   auto& parts = *parts_;
   const ThreadScope scope(parts.threads);
   std::optional<LoopCount> count;
@@ -356,12 +388,12 @@ const Scene& World::scene() const { return parts_->world.scene; }
 const std::vector<Material>& World::materials() const { return *parts_->world.materials; }
 
 MaterialIndex World::add(const Material& material) {
-  parts_->check("add").material(material, "material");
+  parts_->change("add").material(material, "material");
   return parts_->world.add_material(material);
 }
 
 BodyKey World::add(const Solid& solid) {
-  parts_->check("add").solid(solid, "solid");
+  parts_->change("add").solid(solid, "solid");
   add_compounds(parts_->world, std::span(&solid, 1));
   return parts_->added(solid.name);
 }
@@ -373,19 +405,26 @@ BodyKey World::add(const Asset& asset, const BodyMotion& motion, const std::stri
   solid.X_WR = motion.X_WR;
   solid.velocity_W = motion.velocity_W;
   solid.angular_velocity_W = motion.angular_velocity_W;
-  parts_->check("add").solid(solid, "solid");
+  const ItemCheck check = parts_->change("add");
+  check.solid(solid, "solid");
+  for (const auto& [index, given] : asset.materials()) {
+    if (const std::string& found = materials()[index.value].name; found != given)
+      check.refuse("the asset has material " + std::to_string(index.value) + ", " + given +
+                       ", which is " + found + " in this world",
+                   "an asset made of the materials of this world");
+  }
   add_compounds(parts_->world, std::span(&solid, 1), {asset.data_->structure});
   return parts_->added(name);
 }
 
 BodyKey World::add(const Ball& ball) {
-  parts_->check("add").ball(ball, "ball");
+  parts_->change("add").ball(ball, "ball");
   add_ball(parts_->world, ball);
   return parts_->added(ball.name);
 }
 
 JointKey World::add(const Joint& joint) {
-  parts_->check("add").joint(joint, "joint");
+  parts_->change("add").joint(joint, "joint");
   for (const std::optional<std::uint32_t>& end : {joint.a, joint.b})
     if (end) parts_->actor(BodyKey(std::size_t{*end}), "add");
   parts_->changed();
@@ -394,28 +433,30 @@ JointKey World::add(const Joint& joint) {
 }
 
 void World::shoot(const Shot& shot) {
-  parts_->check("shoot").shot(shot, "shot");
+  parts_->change("shoot").shot(shot, "shot");
   parts_->act.add(parts_->world, shot);
 }
 
 void World::blast(const Blast& blast) {
-  parts_->check("blast").blast(blast, "blast");
+  parts_->change("blast").blast(blast, "blast");
   parts_->act.add(blast);
 }
 
 void World::drive(const Drive& drive) {
-  parts_->check("drive").drive(drive, "drive");
+  parts_->change("drive").drive(drive, "drive");
   for (const std::uint32_t key : drive.roots) parts_->actor(BodyKey(std::size_t{key}), "drive");
   parts_->act.add(drive);
 }
 
 void World::remove(BodyKey body) {
+  parts_->change("remove");
   parts_->actor(body, "remove");
   parts_->changed();
   remove_actor(parts_->world, body.value);
 }
 
 void World::remove(JointKey joint) {
+  parts_->change("remove");
   const Joints::Live* live = parts_->world.joints.find(joint.value);
   if (!live)
     parts_->check("remove").refuse("there is no joint " + std::to_string(joint.value),
@@ -426,10 +467,10 @@ void World::remove(JointKey joint) {
 
 void World::set_motion(BodyKey body, const BodyMotion& motion) {
   const Actor& actor = parts_->movable(body, "set_motion");
-  const ItemCheck check = parts_->check("set_motion");
+  const ItemCheck check = parts_->change("set_motion");
   check.pose(motion.X_WR, "motion.X_WR");
-  check.need_finite(motion.velocity_W, "motion.velocity_W");
-  check.need_finite(motion.angular_velocity_W, "motion.angular_velocity_W");
+  check.need_vector(motion.velocity_W, ranges::kSpeed, "motion.velocity_W");
+  check.need_vector(motion.angular_velocity_W, ranges::kSpeed, "motion.angular_velocity_W");
   parts_->changed();
   const Quat rotation = motion.X_WR.rotation.normalized();
   const Pose X_WR{motion.X_WR.position, rotation};
@@ -441,7 +482,7 @@ void World::set_motion(BodyKey body, const BodyMotion& motion) {
 
 void World::move_to(BodyKey body, const Pose& X_WR, double duration_s) {
   const Actor& actor = parts_->movable(body, "move_to");
-  const ItemCheck check = parts_->check("move_to");
+  const ItemCheck check = parts_->change("move_to");
   check.pose(X_WR, "X_WR");
   check.need_number(duration_s, kShortestStep_s, kMaxTime_s, "duration_s");
   parts_->changed();
@@ -454,6 +495,7 @@ void World::move_to(BodyKey body, const Pose& X_WR, double duration_s) {
 }
 
 void World::release(BodyKey body) {
+  parts_->change("release");
   Actor& actor = parts_->actor(body, "release");
   if (!actor.is_static) return;
   parts_->changed();
@@ -467,7 +509,7 @@ void World::release(BodyKey body) {
 
 void World::apply_impulse(BodyKey body, const Vec3& impulse_W, const Vec3& point_W) {
   const Actor& actor = parts_->actor(body, "apply_impulse");
-  const ItemCheck check = parts_->check("apply_impulse");
+  const ItemCheck check = parts_->change("apply_impulse");
   check.need_finite(impulse_W, "impulse_W");
   check.need_finite(point_W, "point_W");
   parts_->changed();
@@ -477,7 +519,7 @@ void World::apply_impulse(BodyKey body, const Vec3& impulse_W, const Vec3& point
 void World::break_at(BodyKey body, const Vec3& point_W, const Vec3& direction_W, double energy_J,
                      std::optional<PatternSpec> pattern) {
   const Actor& actor = parts_->actor(body, "break_at");
-  const ItemCheck check = parts_->check("break_at");
+  const ItemCheck check = parts_->change("break_at");
   check.need_finite(point_W, "point_W");
   check.need_finite(direction_W, "direction_W");
   if (!(direction_W.norm() > 0)) check.refuse("direction_W is zero", "a vector with a length");
@@ -498,10 +540,12 @@ void World::break_at(BodyKey body, const Vec3& point_W, const Vec3& direction_W,
 }
 
 void World::set_user_data(BodyKey body, std::uint64_t user_data) {
+  parts_->change("set_user_data");
   parts_->actor(body, "set_user_data").user_data = user_data;
 }
 
 void World::set_filter(BodyKey body, CollisionFilter filter) {
+  parts_->change("set_filter");
   Actor& actor = parts_->actor(body, "set_filter");
   if (actor.filter == filter) return;
   parts_->changed();
@@ -592,12 +636,14 @@ MovingBall moving_ball(const ItemCheck& check, const Vec3& from_W, const Vec3& d
 
 std::optional<CastHit> World::cast(const Vec3& from_W, const Vec3& direction_W, double most_m,
                                    double radius_m, const QueryFilter& filter) const {
+  const Query query(parts_->queries);
   return find_first(parts_->world, filter,
                     moving_ball(parts_->check("cast"), from_W, direction_W, most_m, radius_m));
 }
 
 std::vector<CastHit> World::cast_all(const Vec3& from_W, const Vec3& direction_W, double most_m,
                                      double radius_m, const QueryFilter& filter) const {
+  const Query query(parts_->queries);
   return find_all(parts_->world, filter,
                   moving_ball(parts_->check("cast_all"), from_W, direction_W, most_m, radius_m));
 }
@@ -607,6 +653,7 @@ std::vector<Overlap> World::overlap(const Vec3& center_W, double radius_m,
   const ItemCheck check = parts_->check("overlap");
   check.need_finite(center_W, "center_W");
   check.need_number(radius_m, 0, kMaxNumber, "radius_m");
+  const Query query(parts_->queries);
   return find_overlaps(parts_->world, filter, center_W, radius_m);
 }
 
@@ -615,13 +662,14 @@ std::vector<Overlap> World::overlap(const Box& box_W, const QueryFilter& filter)
   check.need_finite(box_W.min, "box_W.min");
   check.need_finite(box_W.max, "box_W.max");
   if (box_W.empty()) check.refuse("box_W is empty", "min at most max");
+  const Query query(parts_->queries);
   return find_overlaps(parts_->world, filter, box_W);
 }
 
 const Events& World::events() const { return parts_->events; }
 
 void World::report_hits(double least_m_s) {
-  parts_->check("report_hits")
+  parts_->change("report_hits")
       .need_number(least_m_s, 0, std::numeric_limits<double>::infinity(), "least_m_s");
   parts_->least_hit_m_s = least_m_s;
 }

@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/model/frame.h"
@@ -42,10 +43,16 @@ using JointKey = Index<JointKeyTag>;
 /// A solid of which a world can have any number: compound, adjacency and mass are computed once.
 class Asset {
  public:
-  /// Throws InputError if the compound is invalid.
-  explicit Asset(Compound compound);
+  /// Names of materials, by the indices that stand for them.
+  using MaterialNames = std::vector<std::pair<MaterialIndex, std::string>>;
+
+  /// Throws InputError if the compound is invalid. A world that has a material of another name at
+  /// an index of `materials` refuses the asset; other indices stand for what the world has there.
+  explicit Asset(Compound compound, MaterialNames materials = {});
   /// Returns the geometry, in the rest frame.
   const Compound& compound() const;
+  /// Returns the names of materials that a world must have.
+  const MaterialNames& materials() const;
 
  private:
   friend class World;
@@ -93,7 +100,8 @@ struct QueryFilter {
   /// A body is found if its filter's category is in this mask.
   std::uint32_t mask = 0xffffffff;
   bool ground = true;  ///< False: the ground is not found.
-  /// Bodies for which it returns false are not found; empty: all are.
+  /// Bodies for which it returns false are not found; empty: all are. It may ask the world; calls
+  /// that change the world throw InputError meanwhile.
   std::function<bool(BodyKey)> accepts = {};
 };
 
@@ -183,7 +191,8 @@ class World {
   MaterialIndex add(const Material& material);
   /// Adds a solid; its compound is prepared in the call.
   BodyKey add(const Solid& solid);
-  /// Adds a solid at a pose, without what the asset has already.
+  /// Adds a solid at a pose, without what the asset has already. Throws InputError if a
+  /// material of the asset is another one in this world.
   BodyKey add(const Asset& asset, const BodyMotion& motion, const std::string& name = "");
   /// Adds a ball.
   BodyKey add(const Ball& ball);
@@ -208,6 +217,7 @@ class World {
   /// unbreakable. It stays there until it is moved on or released.
   void move_to(BodyKey body, const Pose& X_WR, double duration_s);
   /// Frees a kinematic body, which keeps its velocity, or removes all anchors of an anchored one.
+  /// The body keeps its key.
   void release(BodyKey body);
   /// Applies an impulse, N s, at a point; has no effect on anchored and kinematic bodies.
   void apply_impulse(BodyKey body, const Vec3& impulse_W, const Vec3& point_W);

@@ -29,8 +29,8 @@ void need_ray(const SunderVec3& from_W, const SunderVec3& direction_W) {
   need_vector(direction_W, kMaxPosition_m, "direction_W");
 }
 
-SunderCastHit cast_hit(const CastHit& hit) {
-  return {body_of(hit.body), hit.slot,         material_of(hit.material),
+SunderCastHit cast_hit(WorldEntry& entry, const CastHit& hit) {
+  return {body_of(hit.body), hit.slot,         material_of(entry, hit.material),
           hit.distance_m,    vec(hit.point_W), vec(hit.normal_W)};
 }
 
@@ -42,7 +42,7 @@ Array<SunderBody> bodies_of(const std::vector<BodyKey>& keys) {
   return bodies;
 }
 
-EventArrays event_arrays(const Events& events) {
+EventArrays event_arrays(WorldEntry& entry, const Events& events) {
   EventArrays arrays;
   std::size_t children = 0;
   for (const BreakEvent& event : events.breaks) children += event.child_keys.size();
@@ -53,8 +53,8 @@ EventArrays event_arrays(const Events& events) {
     std::ranges::transform(event.child_keys, std::back_inserter(arrays.children), body);
     const std::uint32_t count = count_of(event.child_keys.size());
     arrays.breaks.push_back({event.time_s, body(event.parent_key), count > 0 ? first : nullptr,
-                             count, event.pieces, material_of(event.material), vec(event.point_W),
-                             event.energy_J, event.new_area_m2});
+                             count, event.pieces, material_of(entry, event.material),
+                             vec(event.point_W), event.energy_J, event.new_area_m2});
   }
   for (const Hit& hit : events.hits)
     arrays.hits.push_back({body_of(hit.a), body_of(hit.b), vec(hit.point_W), vec(hit.normal_W),
@@ -169,7 +169,7 @@ SunderResult sunder_world_cast(SunderWorld world, SunderVec3 from_W, SunderVec3 
     const auto first =
         entry.world.cast(vec(from_W), vec(direction_W), most_m, radius_m, query_filter(query));
     *found = first.has_value();
-    if (first) *hit = cast_hit(*first);
+    if (first) *hit = cast_hit(entry, *first);
   });
 }
 
@@ -180,7 +180,7 @@ SunderResult sunder_world_cast_all(SunderWorld world, SunderVec3 from_W, SunderV
     need_pointer(count, "count");
     need_ray(from_W, direction_W);
     fill(entry.world.cast_all(vec(from_W), vec(direction_W), most_m, radius_m, query_filter(query)),
-         hits, count, "hits", cast_hit);
+         hits, count, "hits", [&](const CastHit& hit) { return cast_hit(entry, hit); });
   });
 }
 
@@ -222,7 +222,7 @@ SunderResult sunder_world_contacts(SunderWorld world, SunderBody body, SunderCon
 SunderResult sunder_world_events(SunderWorld world, SunderEvents* events) {
   return ask_world("sunder_world_events", world, [&](WorldEntry& entry) {
     need_pointer(events, "events");
-    if (!entry.events) entry.events = event_arrays(entry.world.events());
+    if (!entry.events) entry.events = event_arrays(entry, entry.world.events());
     const EventArrays& arrays = *entry.events;
     *events = {data_of(arrays.breaks),      count_of(arrays.breaks.size()),
                data_of(arrays.hits),        count_of(arrays.hits.size()),

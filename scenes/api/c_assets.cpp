@@ -30,7 +30,7 @@ std::vector<Vec3> points_of(const SunderVec3* points, std::uint32_t count,
   return found;
 }
 
-Part part_of(const SunderPartDef& def, const std::string& name) {
+Part part_of(const SunderPartDef& def, const std::string& name, Array<SunderMaterial>& own) {
   need_cookie(def.cookie, kPartCookie, name, "sunder_default_part_def");
   Part part;
   if (def.points) {
@@ -42,13 +42,14 @@ Part part_of(const SunderPartDef& def, const std::string& name) {
     need_vector(def.box_max, kMaxCoordinate_m, name + ".box_max");
     part.polyhedron = make_box(vec(def.box_min), vec(def.box_max));
   }
-  part.material = index_of(def.material);
+  part.material = index_of(def.material, name + ".material", own);
   part.anchored = def.anchored ? 1 : 0;
   return part;
 }
 
 /// Returns the decomposition of the triangles of a definition.
-Compound triangle_compound(const SunderMeshDef& def, const MeshOptions& options) {
+Compound triangle_compound(const SunderMeshDef& def, const MeshOptions& options,
+                           MaterialIndex material) {
   need_pointer(def.vertices, "mesh.vertices");
   need_pointer(def.indices, "mesh.indices");
   if (def.index_count == 0 || def.index_count % 3 != 0)
@@ -64,15 +65,15 @@ Compound triangle_compound(const SunderMeshDef& def, const MeshOptions& options)
     if (i % 3 == 0) raw.polygons.push_back({i, 3});
   }
   fracture::VacdOptions vacd = vacd_options(options);
-  vacd.material = index_of(def.material);
+  vacd.material = material;
   return fracture::decompose(
              repair_mesh(std::move(raw), "mesh", {.repair = options.repair != "off"}), vacd)
       .compound;
 }
 
-SunderAsset store(Compound compound) {
-  return add_asset(std::allocate_shared<AssetEntry>(HookAllocator<AssetEntry>(),
-                                                    AssetEntry{Asset(std::move(compound))}));
+SunderAsset store(Compound compound, Array<SunderMaterial> own) {
+  return add_asset(std::allocate_shared<AssetEntry>(
+      HookAllocator<AssetEntry>(), AssetEntry{Asset(std::move(compound)), std::move(own)}));
 }
 
 }  // namespace
@@ -106,9 +107,10 @@ SunderResult sunder_asset_create_parts(const SunderPartDef* parts, uint32_t coun
     need_pointer(asset, "asset");
     if (count == 0) refuse("count is 0; expected one part or more");
     std::vector<Part> made;
+    Array<SunderMaterial> own;
     for (std::uint32_t i = 0; i < count; ++i)
-      made.push_back(part_of(parts[i], "parts[" + std::to_string(i) + "]"));
-    *asset = store(make_compound(std::move(made)));
+      made.push_back(part_of(parts[i], "parts[" + std::to_string(i) + "]", own));
+    *asset = store(make_compound(std::move(made)), std::move(own));
   });
 }
 
@@ -116,20 +118,22 @@ SunderResult sunder_asset_create_mesh(const SunderMeshDef* mesh, SunderAsset* as
   return guard("sunder_asset_create_mesh", SUNDER_ERROR_INPUT, [&] {
     need_def(mesh, kMeshCookie, "mesh", "sunder_default_mesh_def");
     need_pointer(asset, "asset");
+    Array<SunderMaterial> own;
+    const MaterialIndex material = index_of(mesh->material, "mesh.material", own);
     MeshOptions options;
     options.nodes = text_of(mesh->nodes);
     options.convexes = mesh->convexes;
     if (mesh->fit) options.fit = mesh->fit;
     options.repair = mesh->repair ? "auto" : "off";
     if (!mesh->mesh) {
-      *asset = store(triangle_compound(*mesh, options));
+      *asset = store(triangle_compound(*mesh, options, material), std::move(own));
       return;
     }
     need_number(mesh->scale, 1e-9, 1e9, "mesh.scale");
     need_number(mesh->size_m, 0, kMaxCoordinate_m, "mesh.size_m");
     options.scale = mesh->scale;
     if (mesh->size_m > 0) options.size_m = mesh->size_m;
-    *asset = store(make_compound(mesh->mesh, index_of(mesh->material), options));
+    *asset = store(make_compound(mesh->mesh, material, options), std::move(own));
   });
 }
 

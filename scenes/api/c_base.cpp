@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <new>
 #include <sstream>
 #include <utility>
 
+#include "engine/base/archive.h"
 #include "scenes/load.h"
 
 namespace sunder::scenes {
@@ -184,10 +186,85 @@ SunderMaterial default_material(const char* name) noexcept {
   try {
     const std::vector<Material>& all = builtins();
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (all[i].name == name) return material_of(MaterialIndex(i));
+      if (all[i].name == name) return {static_cast<std::uint32_t>(i)};
   } catch (...) {
   }
   return {SUNDER_NO_MATERIAL};
+}
+
+namespace {
+
+/// The materials that are not built in, of all worlds of the process: handles stand for them.
+struct OwnMaterials {
+  struct Known {
+    MaterialIndex index;
+    std::string name;
+  };
+  std::mutex mutex;
+  std::vector<Known> known;                 ///< By handle, from kFirstOwn on.
+  std::map<std::string, std::size_t> find;  ///< By index and values.
+};
+
+constexpr std::uint32_t kFirstOwn = 1u << 16;
+
+/// Returns the materials, which are never destroyed, as handles() are not.
+OwnMaterials& own_materials() {
+  static OwnMaterials& all = *new OwnMaterials;
+  return all;
+}
+
+/// Returns what a handle stands for; none if that is a built-in material, or nothing.
+std::optional<OwnMaterials::Known> find_own(SunderMaterial material) {
+  OwnMaterials& all = own_materials();
+  const std::lock_guard lock(all.mutex);
+  if (material.index < kFirstOwn || material.index - kFirstOwn >= all.known.size())
+    return std::nullopt;
+  return all.known[material.index - kFirstOwn];
+}
+
+SunderMaterial handle_of(std::uint32_t index, Material material) {
+  if (index < builtins().size() && builtins()[index].name == material.name) return {index};
+  Archive bytes;
+  bytes(index, material);
+  const std::vector<std::byte> key = bytes.take();
+  OwnMaterials& all = own_materials();
+  const std::lock_guard lock(all.mutex);
+  const auto [found, is_new] = all.find.try_emplace(
+      std::string(reinterpret_cast<const char*>(key.data()), key.size()), all.known.size());
+  if (is_new) all.known.push_back({MaterialIndex(std::size_t{index}), material.name});
+  return {kFirstOwn + count_of(found->second)};
+}
+
+}  // namespace
+
+SunderMaterial material_of(WorldEntry& entry, MaterialIndex index) {
+  const std::vector<Material>& materials = entry.world.materials();
+  if (index.value >= materials.size()) return {SUNDER_NO_MATERIAL};
+  for (std::size_t i = entry.materials.size(); i < materials.size(); ++i)
+    entry.materials.push_back(handle_of(static_cast<std::uint32_t>(i), materials[i]));
+  return entry.materials[index.value];
+}
+
+MaterialIndex index_in(WorldEntry& entry, SunderMaterial material, const std::string& name) {
+  const std::optional<OwnMaterials::Known> own = find_own(material);
+  const MaterialIndex index = own ? own->index : MaterialIndex(std::size_t{material.index});
+  if (!index.none() && material_of(entry, index).index == material.index) return index;
+  refuse(name + " has material " + std::to_string(material.index) +
+         (own ? ", a material " + own->name + " of another world" : ", which is none") +
+         "; expected a material of this world, from sunder_world_material() or "
+         "sunder_world_add_material()");
+}
+
+MaterialIndex index_of(SunderMaterial material, const std::string& name,
+                       Array<SunderMaterial>& own) {
+  if (material.index < builtins().size()) return MaterialIndex(std::size_t{material.index});
+  const std::optional<OwnMaterials::Known> known = find_own(material);
+  if (!known)
+    refuse(name + " is " + std::to_string(material.index) +
+           ", which stands for no material; expected one of sunder_builtin_material(), "
+           "sunder_world_material() or sunder_world_add_material()");
+  own.push_back(material);
+  return known->index;
 }
 
 SunderWorld add_world(WorldPtr world) {

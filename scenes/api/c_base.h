@@ -17,6 +17,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/types.h"
+#include "engine/model/checks/ranges.h"
 #include "engine/model/frame.h"
 #include "engine/world/world.h"
 #include "scenes/api/sunder_c.h"
@@ -103,7 +104,7 @@ void need_vector(const SunderVec3& vector, double most, const std::string& name)
 inline std::string text_of(const char* text) { return text ? text : ""; }
 
 /// Largest coordinate, in m, and speed, in m/s or rad/s, of what is added or moved.
-inline constexpr double kMaxPosition_m = 1e9, kMaxSpeed_m_s = 1e9;
+inline constexpr double kMaxPosition_m = ranges::kPlace_m.high, kMaxSpeed_m_s = ranges::kSpeed.high;
 inline constexpr double kMaxImpulse_Ns = 1e15;
 
 inline Vec3 vec(const SunderVec3& v) { return {v.x, v.y, v.z}; }
@@ -120,10 +121,6 @@ inline SunderMotion motion(const BodyMotion& m) {
 }
 inline BodyKey key_of(SunderBody body) { return BodyKey(std::size_t{body.key}); }
 inline SunderBody body_of(BodyKey key) { return {key.value}; }
-inline SunderMaterial material_of(MaterialIndex index) { return {index.value}; }
-inline MaterialIndex index_of(SunderMaterial material) {
-  return MaterialIndex(std::size_t{material.index});
-}
 inline CollisionFilter filter_of(SunderFilter filter) { return {filter.category, filter.mask}; }
 inline SunderFilter filter_of(CollisionFilter filter) { return {filter.category, filter.mask}; }
 /// Copies a name into a buffer, cut off if it is longer.
@@ -166,23 +163,36 @@ struct FrameArrays {
 
 /// A world with what its handle keeps.
 struct WorldEntry {
-  std::mutex mutex;  ///< Held by the call that uses the world.
+  /// Held by the call that uses the world; once more by calls that a query's `accepts` makes.
+  std::recursive_mutex mutex;
   World world;
   bool incomplete = false;  ///< A call that changes the world did not end.
   std::optional<EventArrays> events;
   std::optional<FrameArrays> frame;
 
-  Array<std::byte> saved;  ///< The last state that was saved.
+  Array<std::byte> saved;           ///< The last state that was saved.
+  Array<SunderMaterial> materials;  ///< Handles of the first materials, by index.
 
   explicit WorldEntry(World made) : world(std::move(made)) {}
 };
 
 struct AssetEntry {
   Asset asset;
+  Array<SunderMaterial> materials;  ///< Its materials that are not built in.
 };
 
 using WorldPtr = std::shared_ptr<WorldEntry>;
 using AssetPtr = std::shared_ptr<AssetEntry>;
+
+/// Returns the handle of a material of a world. A built-in material, also if the scene has changed
+/// it, has its index; any other has a handle that stands for its values at its index in all worlds.
+SunderMaterial material_of(WorldEntry& entry, MaterialIndex index);
+/// Returns the index of a material of a world. Refuses a handle that is none of this world.
+MaterialIndex index_in(WorldEntry& entry, SunderMaterial material, const std::string& name);
+/// Returns the index for which a handle stands in the worlds that have the material, which is added
+/// to `own` if it is not built in. Refuses a handle that stands for nothing.
+MaterialIndex index_of(SunderMaterial material, const std::string& name,
+                       Array<SunderMaterial>& own);
 
 SunderWorld add_world(WorldPtr world);
 SunderAsset add_asset(AssetPtr asset);

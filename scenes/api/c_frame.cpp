@@ -11,7 +11,7 @@ void copy_vector(const Vec3f& from, float (&to)[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
-SunderInstance instance_of(const Frame& frame, const Instance& instance) {
+SunderInstance instance_of(WorldEntry& entry, const Frame& frame, const Instance& instance) {
   const Mesh& mesh = *(*frame.meshes)[instance.mesh.value];
   const FrameBody& body = frame.bodies[instance.body];
   const Pose X_RM{mesh.X_RT * mesh.origin_T, mesh.X_RT.rotation};
@@ -19,20 +19,20 @@ SunderInstance instance_of(const Frame& frame, const Instance& instance) {
   const MaterialIndex material = instance.material.none() ? mesh.material : instance.material;
   return {instance.mesh.value,
           {static_cast<std::uint32_t>(body.key)},
-          material_of(material),
+          material_of(entry, material),
           pose(X_WM)};
 }
 
-FrameArrays frame_arrays(FramePtr frame) {
+FrameArrays frame_arrays(WorldEntry& entry, FramePtr frame) {
   FrameArrays arrays;
   for (const Instance& instance : frame->instances)
-    arrays.instances.push_back(instance_of(*frame, instance));
+    arrays.instances.push_back(instance_of(entry, *frame, instance));
   for (const FrameDebris& chip : frame->debris) {
     SunderDebris debris{};
     copy_vector(chip.position_W, debris.position_W);
     for (int i = 0; i < 4; ++i) debris.rotation[i] = chip.rotation_WD.coeffs()[i];
     debris.radius_m = chip.radius_m;
-    debris.material = material_of(chip.material);
+    debris.material = material_of(entry, chip.material);
     arrays.debris.push_back(debris);
   }
   for (const FrameDust& puff : frame->dust) {
@@ -40,7 +40,7 @@ FrameArrays frame_arrays(FramePtr frame) {
     copy_vector(puff.position_W, dust.position_W);
     dust.radius_m = puff.radius_m;
     dust.opacity = puff.opacity;
-    dust.material = material_of(puff.material);
+    dust.material = material_of(entry, puff.material);
     arrays.dust.push_back(dust);
   }
   arrays.frame = std::move(frame);
@@ -91,7 +91,7 @@ SunderResult sunder_world_frame(SunderWorld world, SunderFrame* frame) {
     FramePtr present = entry.world.frame();
     if (!entry.frame || entry.frame->frame != present) {
       entry.frame.reset();
-      entry.frame = frame_arrays(std::move(present));
+      entry.frame = frame_arrays(entry, std::move(present));
     }
     const FrameArrays& arrays = *entry.frame;
     *frame = {arrays.frame->index,
@@ -125,7 +125,7 @@ SunderResult sunder_world_mesh(SunderWorld world, uint32_t mesh, SunderMesh* out
             count_of(vertices->second.size()),
             found->indices.empty() ? nullptr : found->indices.data(),
             count_of(found->indices.size()),
-            material_of(found->material),
+            material_of(entry, found->material),
             found->uvs.empty() ? nullptr : found->uvs.front().data()};
   });
 }

@@ -45,7 +45,7 @@ Scene scene_of(const SunderWorldDef& def) {
                           : parse_scene(def.scene_text ? def.scene_text : kEmptyScene,
                                         def.scene_text ? "scene_text" : "empty", options);
   if (def.has_gravity) {
-    need_vector(def.gravity_W, kMaxSpeed_m_s, "def.gravity_W");
+    need_vector(def.gravity_W, ranges::kGravity_m_s2.high, "def.gravity_W");
     scene.gravity_W = vec(def.gravity_W);
   }
   if (def.has_seed) scene.seed = def.seed;
@@ -83,21 +83,17 @@ static_assert(static_cast<int>(JointKind::kRope) == SUNDER_JOINT_ROPE);
 static_assert(BodyKey::kNone == SUNDER_NO_KEY && MaterialIndex::kNone == SUNDER_NO_MATERIAL);
 
 /// Returns the index of the last material of a name.
-SunderMaterial material_called(const std::vector<Material>& materials, const char* name) {
+MaterialIndex material_called(const std::vector<Material>& materials, const char* name) {
   need_pointer(name, "name");
   std::string known;
   for (std::size_t i = materials.size(); i-- > 0;)
-    if (materials[i].name == name) return material_of(MaterialIndex(i));
+    if (materials[i].name == name) return MaterialIndex(i);
   for (const Material& material : materials) known += (known.empty() ? "" : ", ") + material.name;
   refuse("name is '" + std::string(name) + "', which no material has; expected one of " + known);
 }
 
-const Material& material_at(const WorldEntry& entry, SunderMaterial material, const char* name) {
-  const std::vector<Material>& materials = entry.world.materials();
-  if (material.index >= materials.size())
-    refuse(std::string(name) + " has the index " + std::to_string(material.index) +
-           "; expected one below " + std::to_string(materials.size()));
-  return materials[material.index];
+const Material& material_at(WorldEntry& entry, SunderMaterial material, const char* name) {
+  return entry.world.materials()[index_in(entry, material, name).value];
 }
 
 /// Copies a colour, whose elements are finite.
@@ -138,14 +134,14 @@ void need_motion(const SunderMotion& motion, const std::string& name) {
   need_vector(motion.angular_velocity_W, kMaxSpeed_m_s, name + ".angular_velocity_W");
 }
 
-Ball ball_of(const SunderBallDef& def, const std::string& name) {
+Ball ball_of(WorldEntry& entry, const SunderBallDef& def, const std::string& name) {
   need_cookie(def.cookie, kBallCookie, name, "sunder_default_ball_def");
   need_vector(def.center_W, kMaxPosition_m, name + ".center_W");
   need_vector(def.velocity_W, kMaxSpeed_m_s, name + ".velocity_W");
   Ball ball;
   ball.name = text_of(def.name);
   ball.radius_m = def.radius_m;
-  ball.material = index_of(def.material);
+  ball.material = index_in(entry, def.material, name);
   ball.center_W = vec(def.center_W);
   ball.velocity_W = vec(def.velocity_W);
   ball.filter = filter_of(def.filter);
@@ -275,14 +271,14 @@ SunderPatternDef sunder_default_pattern_def() {
 SunderResult sunder_builtin_material(const char* name, SunderMaterial* material) {
   return guard("sunder_builtin_material", SUNDER_ERROR_ARGUMENT, [&] {
     need_pointer(material, "material");
-    *material = material_called(builtins(), name);
+    *material = {material_called(builtins(), name).value};
   });
 }
 
 SunderResult sunder_world_material(SunderWorld world, const char* name, SunderMaterial* material) {
   return ask_world("sunder_world_material", world, [&](WorldEntry& entry) {
     need_pointer(material, "material");
-    *material = material_called(entry.world.materials(), name);
+    *material = material_of(entry, material_called(entry.world.materials(), name));
   });
 }
 
@@ -325,7 +321,7 @@ SunderResult sunder_world_add_material(SunderWorld world, const SunderMaterialDe
     need_def(def, kMaterialCookie, "def", "sunder_world_material_def");
     need_pointer(material, "material");
     const Material added = material_from(material_at(entry, def->base, "def.base"), *def);
-    *material = material_of(entry.world.add(added));
+    *material = material_of(entry, entry.world.add(added));
   });
 }
 
@@ -364,6 +360,7 @@ SunderResult sunder_world_add_solid(SunderWorld world, SunderAsset asset,
     const AssetPtr shared = find_asset(asset);
     need_def(solid, kSolidCookie, "solid", "sunder_default_solid_def");
     need_motion(solid->motion, "solid.motion");
+    for (const SunderMaterial material : shared->materials) index_in(entry, material, "asset");
     const BodyKey key = entry.world.add(shared->asset, motion(solid->motion), text_of(solid->name));
     entry.world.set_user_data(key, solid->user_data);
     entry.world.set_filter(key, filter_of(solid->filter));
@@ -374,7 +371,7 @@ SunderResult sunder_world_add_solid(SunderWorld world, SunderAsset asset,
 SunderResult sunder_world_add_ball(SunderWorld world, const SunderBallDef* ball, SunderBody* body) {
   return change_world("sunder_world_add_ball", world, [&](WorldEntry& entry) {
     need_pointer(ball, "ball");
-    const BodyKey key = entry.world.add(ball_of(*ball, "ball"));
+    const BodyKey key = entry.world.add(ball_of(entry, *ball, "ball"));
     if (body) *body = body_of(key);
   });
 }
@@ -422,7 +419,7 @@ SunderResult sunder_world_shoot(SunderWorld world, const SunderShotDef* shot) {
     need_def(shot, kShotCookie, "shot", "sunder_default_shot_def");
     Shot made;
     made.time_s = shot->time_s;
-    made.ball = ball_of(shot->ball, "shot.ball");
+    made.ball = ball_of(entry, shot->ball, "shot.ball");
     if (shot->hangs) {
       need_vector(shot->hangs_from_W, kMaxPosition_m, "shot.hangs_from_W");
       made.hangs_from_W = vec(shot->hangs_from_W);

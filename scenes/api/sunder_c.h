@@ -124,14 +124,16 @@ typedef struct SunderJoint {
   uint32_t key;
 } SunderJoint;
 
-/// Index of a material in a world. The built-in ones have the same index in every world.
+/// Handle of a material. That of a built-in one is valid in every world; any other stands for its
+/// values in the worlds that have it: the world that it was asked of, copies and restored states of
+/// that, and worlds made of the same scene. All others refuse it.
 typedef struct SunderMaterial {
   uint32_t index;
 } SunderMaterial;
 
 /// The key that stands for the ground in results, and for the world as an end of a joint.
 #define SUNDER_NO_KEY 0xffffffffu
-/// The index that stands for no material in results, such as the plane of the ground.
+/// The handle that stands for no material in results, such as the plane of the ground.
 #define SUNDER_NO_MATERIAL 0xffffffffu
 
 /// The sets of bits by which bodies collide: two do if the category of each has a bit in the mask
@@ -217,10 +219,10 @@ enum {
 typedef struct SunderPatternDef {
   uint32_t cookie;     ///< Set by the function that filled the definition.
   int32_t kind;        ///< SUNDER_PATTERN_...
-  int32_t cells;       ///< Sites, sectors, slabs, or cells per side, by kind; 1 to 100000.
-  double falloff;      ///< Voronoi: 1 = uniform; larger values move sites towards the impact.
-  int32_t rings;       ///< Web.
-  int32_t spokes;      ///< Web.
+  int32_t cells;       ///< By kind: sites, sectors or slabs, 2 to 5000; cells per side, 2 to 30.
+  double falloff;      ///< Voronoi: 1 = uniform; up to 10 moves sites towards the impact.
+  int32_t rings;       ///< Web, 1 to 100.
+  int32_t spokes;      ///< Web, 3 to 200.
   double jitter;       ///< Web, radial, slabs: irregularity from 0 (regular) to 1.
   SunderVec3 brick_m;  ///< Brick: length, height and depth.
   int32_t colors;      ///< Number of pieces that cells are joined into; 0: each cell is a piece.
@@ -244,7 +246,7 @@ typedef struct SunderMaterialDef {
   double rolling;         ///< Coefficient of rolling resistance.
   double toughness_J_m2;  ///< Energy per new crack area.
   SunderPatternDef pattern;
-  double impact_radius_m;  ///< Radius in which an impact breaks; infinity: the whole solid.
+  double impact_radius_m;  ///< Radius in which an impact breaks, from 0.001; infinity: everywhere.
   double tensile_Pa;       ///< Stress that breaks bonds; 0: unlimited. So are the next two.
   double shear_Pa;
   double compressive_Pa;
@@ -258,7 +260,7 @@ typedef struct SunderMaterialDef {
   float interior_color[3];   ///< Linear RGB of faces that a break made.
 } SunderMaterialDef;
 
-/// Finds a built-in material, such as "brick", "concrete", "glass", "steel" or "wood", whose index
+/// Finds a built-in material, such as "brick", "concrete", "glass", "steel" or "wood", whose handle
 /// is valid in all worlds. SUNDER_ERROR_ARGUMENT if there is none of this name; the message lists
 /// all.
 SUNDER_API SunderResult sunder_builtin_material(const char* name, SunderMaterial* material);
@@ -559,8 +561,9 @@ typedef struct SunderQuery {
   bool ground;         ///< False: the ground is not found.
   SunderBody ignored;  ///< A body that is not found, such as one that casts; SUNDER_NO_KEY: none.
   /// Called for bodies that the query meets, once or more for each, by the thread that asks; a body
-  /// for which it returns false is not found. Null: all are found. It must neither throw nor call
-  /// functions for this world. `accepts_user` is passed on.
+  /// for which it returns false is not found. Null: all are found. It must not throw. It may ask
+  /// the world; functions that change the world return SUNDER_ERROR_ARGUMENT. `accepts_user` is
+  /// passed on.
   bool (*accepts)(SunderBody body, void* accepts_user);
   void* accepts_user;
 } SunderQuery;

@@ -16,6 +16,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/types.h"
+#include "engine/model/checks/ranges.h"
 #include "engine/model/material.h"
 #include "scenes/file/error_list.h"
 #include "scenes/file/value.h"
@@ -41,12 +42,6 @@ struct HeightGrid {
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
-};
-
-/// Allowed values of a number, or of every component of a vector; both ends are included.
-struct Range {
-  double low = -std::numeric_limits<double>::max();
-  double high = std::numeric_limits<double>::max();
 };
 
 /// One key: its name, its allowed values and the field it is stored in.

@@ -11,8 +11,6 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr int kMaxGridCells = 30;  // along each side
-
 /// Theoretical strength of a flawless solid over Young's modulus. Atomic bonds break at a stress of
 /// sqrt(E·gamma/a), which is E/10 within a factor of two (A. A. Griffith, Phil. Trans. R. Soc. A
 /// 221, 1921; E. Orowan, Rep. Prog. Phys. 12, 1949). No bulk solid reaches this strength.
@@ -44,11 +42,11 @@ struct Figure {
 void read_pattern(const Value& table, const std::filesystem::path& folder, PatternSpec& pattern) {
   read(schema().pattern, table, {}, pattern);
   using Kind = PatternSpec::Kind;
-  if (pattern.kind == Kind::kGrid && pattern.cells > kMaxGridCells) {
+  if (pattern.kind == Kind::kGrid && pattern.cells > ranges::kMostGridCells) {
     const Value* cells = find(table, "cells");
     throw InputError((cells ? *cells : table).where + ": cells in [material.pattern] is " +
-                     std::to_string(pattern.cells) + " along each side of a grid; allowed: 2 to " +
-                     std::to_string(kMaxGridCells));
+                     std::to_string(pattern.cells) + " along each side of a grid; allowed: " +
+                     format(ranges::kCells.low) + " to " + format(ranges::kMostGridCells));
   }
   if (pattern.kind != Kind::kFile) return;
   const Value* file = find(table, "file");

@@ -4,11 +4,10 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Range kPlace{-1e6, 1e6};
-constexpr Range kSpeed{-1e4, 1e4};
-constexpr Range kRadius{0.001, 100};
-constexpr Range kFraction{0, 1};
+using ranges::kAtLeastZero, ranges::kFraction, ranges::kSpeed;
+constexpr Range kPlace = ranges::kPlace_m;
+constexpr Range kRadius = ranges::kLength_m;
+constexpr Range kTime = ranges::kFileTime_s;
 constexpr Range kLight{0, 100};
 
 constexpr std::string_view kPatterns[] = {"none",  "voronoi", "web",  "radial",
@@ -38,7 +37,8 @@ Keys<Scene> scene_keys() {
       {key<&Scene::description>("description", "One line for `sunder list`.").must(),
        key<&Scene::duration_s>("duration_s", "s", Range{0.1, 600}, "Simulated time."),
        key<&Scene::seed>("seed", "", Range{0, 9e15}, "Seed of all random numbers."),
-       key<&Scene::gravity_W>("gravity", "m/s²", Range{-100, 100}, "Acceleration due to gravity."),
+       key<&Scene::gravity_W>("gravity", "m/s²", ranges::kGravity_m_s2,
+                              "Acceleration due to gravity."),
        key<&Scene::planar>("planar",
                            "Simulate in the plane z = 0: solids are prisms along z that cross it, "
                            "balls are centred in it, and nothing moves along z.")}};
@@ -47,13 +47,13 @@ Keys<Scene> scene_keys() {
 Keys<SolverOptions> solver_keys() {
   return {"[solver]",
           {key<&SolverOptions::max_colors>(
-               "max_colors", "", Range{0, 64},
+               "max_colors", "", ranges::kMaxColors,
                "Most colours of contacts. 64: coloured Gauss-Seidel, with mass splitting for "
                "contacts without a colour; 0: mass splitting for all."),
-           key<&SolverOptions::sweeps>("sweeps", "", Range{1, 1000},
+           key<&SolverOptions::sweeps>("sweeps", "", ranges::kSweeps,
                                        "Sweeps of each kind in a substep; from 4 on with conjugate "
                                        "gradients. 4 at `reference`."),
-           key<&SolverOptions::lanes>("lanes", "", Range{0, 16},
+           key<&SolverOptions::lanes>("lanes", "", ranges::kLanes,
                                       "Contacts that one instruction solves: 1, 4, 8 or 16; 0: the "
                                       "most that the processor has. Results are bit-identical.")}};
 }
@@ -61,46 +61,46 @@ Keys<SolverOptions> solver_keys() {
 Keys<Material> material_keys() {
   return {
       "[[material]]",
-      {key<&Material::density_kg_m3>("density_kg_m3", "kg/m³", Range{1, 30000}, "Density."),
-       key<&Material::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
+      {key<&Material::density_kg_m3>("density_kg_m3", "kg/m³", ranges::kDensity_kg_m3, "Density."),
+       key<&Material::friction>("friction", "", ranges::kFriction, "Coefficient of friction."),
        key<&Material::rolling>(
-           "rolling", "", Range{0, 1},
+           "rolling", "", ranges::kRolling,
            "Coefficient of rolling resistance: torque over normal force and radius."),
        key<&Material::restitution>("restitution", "", kFraction,
                                    "Coefficient of restitution: 0 = no bounce, 1 = full."),
-       key<&Material::strength_Ns>("strength_Ns", "N·s", Range{0, kInfinity},
+       key<&Material::strength_Ns>("strength_Ns", "N·s", kAtLeastZero,
                                    "Obsolete: smallest contact impulse that breaks the material, "
                                    "whatever its stress limits."),
-       key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", Range{0, kInfinity},
+       key<&Material::toughness_J_m2>("toughness_J_m2", "J/m²", kAtLeastZero,
                                       "Fracture energy per area of crack."),
-       key<&Material::tensile_Pa>("tensile_Pa", "Pa", Range{0, kInfinity},
+       key<&Material::tensile_Pa>("tensile_Pa", "Pa", kAtLeastZero,
                                   "Tensile strength of bonds; 0: unlimited."),
-       key<&Material::shear_Pa>("shear_Pa", "Pa", Range{0, kInfinity},
+       key<&Material::shear_Pa>("shear_Pa", "Pa", kAtLeastZero,
                                 "Shear strength of bonds; 0: unlimited."),
-       key<&Material::compressive_Pa>("compressive_Pa", "Pa", Range{0, kInfinity},
+       key<&Material::compressive_Pa>("compressive_Pa", "Pa", kAtLeastZero,
                                       "Compressive strength of bonds; 0: unlimited."),
        key<&Material::reinforcement_percent>(
-           "reinforcement_percent", "%", Range{0, 10},
+           "reinforcement_percent", "%", ranges::kReinforcement_percent,
            "Steel reinforcement in each direction and each face, which resists perforation."),
-       key<&Material::youngs_Pa>("youngs_Pa", "Pa", Range{1, 1e13},
+       key<&Material::youngs_Pa>("youngs_Pa", "Pa", ranges::kYoungs_Pa,
                                  "Young's modulus, which determines how bonds share a load."),
        key<&Material::yield_Pa>(
-           "yield_Pa", "Pa", Range{0, kInfinity},
+           "yield_Pa", "Pa", kAtLeastZero,
            "Yield stress, at which the material bends instead of breaking; 0: it does not yield."),
        key<&Material::hardening_Pa>(
-           "hardening_Pa", "Pa", Range{0, 1e12},
+           "hardening_Pa", "Pa", ranges::kHardening_Pa,
            "Increase of the yield stress at an elongation of 1 (twice the length)."),
        key<&Material::elongation>(
-           "elongation", "", Range{1e-3, 10},
+           "elongation", "", ranges::kElongation,
            "Elongation, relative to the length, at which the yielding material tears."),
        key<&Material::impact_radius_m>(
-           "impact_radius_m", "m", Range{0.001, kInfinity},
+           "impact_radius_m", "m", ranges::kImpactRadius_m,
            "Radius around an impact within which the material breaks; inf: everywhere."),
-       key<&Material::smallest_break_m3>("smallest_break_m3", "m³", Range{0, kInfinity},
+       key<&Material::smallest_break_m3>("smallest_break_m3", "m³", kAtLeastZero,
                                          "Obsolete: pieces below this volume do not break. "
                                          "Default: eight times smallest_piece_m3."),
        key<&Material::smallest_piece_m3>(
-           "smallest_piece_m3", "m³", Range{0, kInfinity},
+           "smallest_piece_m3", "m³", kAtLeastZero,
            "Pieces below this volume become debris instead of bodies."),
        key<&Material::fit>("fit",
                            "Shape that encloses each convex of a broken mesh for collisions."),
@@ -114,22 +114,22 @@ Keys<Material> material_keys() {
 Keys<PatternSpec> pattern_keys() {
   return {"[material.pattern]",
           {choice<&PatternSpec::kind>("kind", kPatterns, "none: the material does not break."),
-           key<&PatternSpec::cells>("cells", "", Range{2, 5000},
+           key<&PatternSpec::cells>("cells", "", ranges::kCells,
                                     "voronoi: sites; radial: sectors; slabs: slabs; grid: cells "
                                     "along each side, at most 30."),
            key<&PatternSpec::falloff>(
-               "falloff", "", Range{1, 10},
+               "falloff", "", ranges::kFalloff,
                "voronoi: 1 = uniform density of sites, more = smaller cells near the impact."),
-           key<&PatternSpec::rings>("rings", "", Range{1, 100}, "web: rings."),
-           key<&PatternSpec::spokes>("spokes", "", Range{3, 200}, "web: spokes."),
+           key<&PatternSpec::rings>("rings", "", ranges::kRings, "web: rings."),
+           key<&PatternSpec::spokes>("spokes", "", ranges::kSpokes, "web: spokes."),
            key<&PatternSpec::jitter>("jitter", "", kFraction,
                                      "web, radial, slabs: irregularity, 0 = regular."),
-           key<&PatternSpec::brick_m>("brick_m", "m", Range{1e-3, 1000},
+           key<&PatternSpec::brick_m>("brick_m", "m", ranges::kBrick_m,
                                       "brick: length, height and depth of a brick."),
            key<&PatternSpec::file>("file",
                                    "file: an .obj of convex cells, one per group, that fill a box "
                                    "around the impact; relative to the folder of the scene."),
-           key<&PatternSpec::colors>("colors", "", Range{0, 5000},
+           key<&PatternSpec::colors>("colors", "", ranges::kColors,
                                      "Number of pieces into which cells are joined, which need not "
                                      "be convex; 0: each cell is a piece.")}};
 }
@@ -137,20 +137,20 @@ Keys<PatternSpec> pattern_keys() {
 Keys<ImpactResponse> stronger_keys() {
   return {"[[material.stronger]]",
           {key<&ImpactResponse::energy_J>(
-               "energy_J", "J", Range{0, kInfinity},
+               "energy_J", "J", kAtLeastZero,
                "Impact energy from which on this entry applies; entries are in ascending order.")
                .must(),
            key<&ImpactResponse::impact_radius_m>(
-               "impact_radius_m", "m", Range{0.001, kInfinity},
+               "impact_radius_m", "m", ranges::kImpactRadius_m,
                "Replaces that of the material, which is the default."),
            table_key("pattern", "Replaces that of the material, whose values are the defaults.")}};
 }
 
 Keys<DebrisEmission> crumbling_keys() {
-  constexpr Range kSize{0.0005, 1};
+  constexpr Range kSize = ranges::kDebrisRadius_m;
   return {"[material.crumbling]",
           {key<&DebrisEmission::particles_per_m2>(
-               "particles_per_m2", "1/m²", Range{0, 1e5},
+               "particles_per_m2", "1/m²", ranges::kParticles_per_m2,
                "Particles of debris and dust per area of new crack faces; 0: none."),
            key<&DebrisEmission::debris_ratio>(
                "debris_ratio", "", kFraction,
@@ -161,9 +161,10 @@ Keys<DebrisEmission> crumbling_keys() {
                "debris_largest_m", "m", kSize,
                "Largest radius of debris; most radii are near the smallest."),
            key<&DebrisEmission::dust_kg_m2>(
-               "dust_kg_m2", "kg/m²", Range{0, 100},
+               "dust_kg_m2", "kg/m²", ranges::kDust_kg_m2,
                "Mass of dust per area of new crack faces, which makes the air heavier."),
-           key<&DebrisEmission::dust_settling_m_s>("dust_settling_m_s", "m/s", Range{0, 10},
+           key<&DebrisEmission::dust_settling_m_s>("dust_settling_m_s", "m/s",
+                                                   ranges::kDustSettling_m_s,
                                                    "Settling speed of dust in still air.")}};
 }
 
@@ -182,21 +183,18 @@ Keys<SolidHead> solid_keys() {
 }
 
 Keys<ShotTable> shot_keys() {
-  return {
-      "[[script.shot]]",
-      {key<&ShotTable::time_s>("time_s", "s", Range{0, 600}, "Time at which the ball appears.")
-           .must(),
-       key<&ShotTable::from>("from", "m", kPlace, "Initial position of the centre.").must(),
-       key<&ShotTable::velocity>("velocity", "m/s", kSpeed,
-                                 "Initial velocity; alternatively `at`."),
-       key<&ShotTable::at>("at", "m", kPlace, "Target, aimed at in a straight line."),
-       key<&ShotTable::speed_m_s>("speed_m_s", "m/s", Range{0, 1e4}, "Initial speed, with `at`."),
-       key<&ShotTable::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
-       key<&ShotTable::material>("material", "Material of the ball."),
-       key<&ShotTable::name>("name", "Name in messages.")}};
+  return {"[[script.shot]]",
+          {key<&ShotTable::time_s>("time_s", "s", kTime, "Time at which the ball appears.").must(),
+           key<&ShotTable::from>("from", "m", kPlace, "Initial position of the centre.").must(),
+           key<&ShotTable::velocity>("velocity", "m/s", kSpeed,
+                                     "Initial velocity; alternatively `at`."),
+           key<&ShotTable::at>("at", "m", kPlace, "Target, aimed at in a straight line."),
+           key<&ShotTable::speed_m_s>("speed_m_s", "m/s", Range{0, kSpeed.high},
+                                      "Initial speed, with `at`."),
+           key<&ShotTable::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
+           key<&ShotTable::material>("material", "Material of the ball."),
+           key<&ShotTable::name>("name", "Name in messages.")}};
 }
-
-constexpr Range kTime{0, 600};
 
 Keys<WreckingBallTable> wrecking_ball_keys() {
   using Given = WreckingBallTable;
@@ -219,14 +217,14 @@ Keys<Blast> blast_keys() {
   return {"[[script.blast]]",
           {key<&Blast::time_s>("time_s", "s", kTime, "Time of the blast.").must(),
            key<&Blast::center_W>("at", "m", kPlace, "Centre of the blast.").must(),
-           key<&Blast::radius_m>("radius_m", "m", Range{0.01, 1000},
+           key<&Blast::radius_m>("radius_m", "m", ranges::kBlastRadius_m,
                                  "Radius beyond which the blast has no effect."),
            key<&Blast::cover>(
                "cover", "true: nearer bodies shield those behind them; false: nothing shields."),
-           key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", Range{0.001, 1e9},
+           key<&Blast::impulse_Ns_m2>("impulse_Ns_m2", "N·s/m²", ranges::kBlastImpulse_Ns_m2,
                                       "Impulse per area at the centre, on a face towards it; "
                                       "decreases with distance and slant."),
-           key<&Blast::tnt_kg>("tnt_kg", "kg", Range{0.001, 1e6},
+           key<&Blast::tnt_kg>("tnt_kg", "kg", ranges::kTnt_kg,
                                "Mass of a charge of TNT, from which the impulse is computed; "
                                "replaces radius_m and impulse_Ns_m2."),
            choice<&Blast::burst>("burst", kBursts,
@@ -251,10 +249,10 @@ Keys<DriveTable> drive_keys() {
            key<&DriveTable::time_s>("time_s", "s", kTime, "Start time."),
            key<&DriveTable::until_s>("until_s", "s", kTime, "End time."),
            key<&DriveTable::velocity>("velocity", "m/s", kSpeed, "Target velocity."),
-           key<&DriveTable::force_N>("force_N", "N", Range{0, 1e12}, "Maximum force."),
+           key<&DriveTable::force_N>("force_N", "N", ranges::kForce, "Maximum force."),
            key<&DriveTable::angular_velocity>("angular_velocity", "rad/s", kSpeed,
                                               "Target angular velocity."),
-           key<&DriveTable::torque_Nm>("torque_Nm", "N·m", Range{0, 1e12}, "Maximum torque.")}};
+           key<&DriveTable::torque_Nm>("torque_Nm", "N·m", ranges::kForce, "Maximum torque.")}};
 }
 
 Keys<MoveTable> move_keys() {
@@ -299,59 +297,59 @@ Schema make_schema() {
   s.scene = scene_keys();
   s.accuracy = {
       "[accuracy]",
-      {key<&Accuracy::dt_s>("dt_s", "s", Range{1e-5, 1.0 / 60 + 1e-9},
+      {key<&Accuracy::dt_s>("dt_s", "s", ranges::kFileStep_s,
                             "Time step; 1/60 s must be a whole number of steps."),
-       key<&Accuracy::substeps>("substeps", "", Range{1, kMaxSubsteps}, "Substeps per step."),
+       key<&Accuracy::substeps>("substeps", "", ranges::kSubsteps, "Substeps per step."),
        key<&Accuracy::error_target_m>(
-           "error_target_m", "m", Range{0, 1},
+           "error_target_m", "m", ranges::kErrorTarget_m,
            "Target penetration of stacks, from which the substeps are computed, approximately; the "
            "actual one is reported as penetration_m. 0: use substeps.")}};
   s.solver = solver_keys();
   s.limits = {
       "[limits]",
-      {key<&Limits::bodies>("bodies", "", Range{1, 200000}, "Most bodies at once."),
-       key<&Limits::ageing>("ageing", "", Range{0, 200000},
+      {key<&Limits::bodies>("bodies", "", ranges::kBodies, "Most bodies at once."),
+       key<&Limits::ageing>("ageing", "", ranges::kAgeing,
                             "Number of bodies from which on the smallest fragments at rest become "
                             "debris; 0: only at the limit of bodies."),
        key<&Limits::parts_a_frame>(
-           "parts_a_frame", "", Range{1, 1000000},
+           "parts_a_frame", "", ranges::kPartsAFrame,
            "Parts that breaks may cut in a frame, approximately: cells of a pattern, and eight for "
            "each convex in its radius; further breaks are deferred to the next frame."),
-       key<&Limits::load_work_a_frame>("load_work_a_frame", "", Range{1, 4e9},
+       key<&Limits::load_work_a_frame>("load_work_a_frame", "", ranges::kWork,
                                        "Bond evaluations per frame to find breaks by load; the "
                                        "rest is deferred to the next frame."),
-       key<&Limits::debris>("debris", "", Range{0, 200000}, "Most debris particles at once."),
-       key<&Limits::dust>("dust", "", Range{0, 100000}, "Most dust particles at once."),
-       key<&Limits::impact_bonds>("impact_bonds", "", Range{0, 4e9},
+       key<&Limits::debris>("debris", "", ranges::kDebris, "Most debris particles at once."),
+       key<&Limits::dust>("dust", "", ranges::kDust, "Most dust particles at once."),
+       key<&Limits::impact_bonds>("impact_bonds", "", ranges::kImpactBonds,
                                   "Bonds of a solid with a pattern above which impacts break it "
                                   "where it is struck only, not by stress elsewhere."),
-       key<&Limits::impact_evaluations>("impact_evaluations", "", Range{1, 4e9},
+       key<&Limits::impact_evaluations>("impact_evaluations", "", ranges::kWork,
                                         "Bond evaluations to find the stress of an impact on a "
                                         "solid; an impact that needs more breaks nothing by "
                                         "stress."),
-       key<&Limits::loaded_convexes>("loaded_convexes", "", Range{2, 1000000},
+       key<&Limits::loaded_convexes>("loaded_convexes", "", ranges::kLoadedConvexes,
                                      "Convexes of a brittle piece below which contacts do not "
                                      "break it by stress."),
-       key<&Limits::cluster_bodies>("cluster_bodies", "", Range{2, 10000},
+       key<&Limits::cluster_bodies>("cluster_bodies", "", ranges::kClusterBodies,
                                     "Moving bodies around an impact that it can reach within a "
                                     "step, the nearest first; three eighths of it if neither of "
                                     "the two that meet can break."),
        key<&Limits::probe_events>(
-           "probe_events", "", Range{2, 10000},
+           "probe_events", "", ranges::kProbeEvents,
            "Times at which contacts of a cluster close in a step, the first 12 in order and the "
            "others by energy; what closes after them breaks nothing."),
-       key<&Limits::break_rounds>("break_rounds", "", Range{1, 1000},
+       key<&Limits::break_rounds>("break_rounds", "", ranges::kBreakRounds,
                                   "Rounds of breaks in a step: solids that break one behind the "
                                   "other."),
        key<&Limits::full_detail>(
-           "full_detail", "", Range{0, 200000},
+           "full_detail", "", ranges::kFullDetail,
            "Awake bodies above which the smallest piece that is a body grows: smallest_piece_m3 is "
            "multiplied by the awake bodies over this number; 0: never."),
        key<&Limits::piece_size_factor>(
-           "piece_size_factor", "", Range{0, 100},
+           "piece_size_factor", "", ranges::kPieceSizeFactor,
            "Factor on the size of the smallest pieces that are bodies, the cube root of "
            "smallest_piece_m3: smaller pieces become debris."),
-       key<&Limits::chip_size_factor>("chip_size_factor", "", Range{1, 100},
+       key<&Limits::chip_size_factor>("chip_size_factor", "", ranges::kChipSizeFactor,
                                       "Factor on debris_smallest_m: smaller debris is left out."),
        key<&Limits::passed_impacts>("passed_impacts",
                                     "false: impacts break only the two bodies that meet, not those "
@@ -359,7 +357,7 @@ Schema make_schema() {
   s.ground = {
       "[ground]",
       {key<&Ground::height_m>("height_m", "m", kPlace, "Height of the plane."),
-       key<&Ground::friction>("friction", "", Range{0, 10}, "Coefficient of friction."),
+       key<&Ground::friction>("friction", "", ranges::kFriction, "Coefficient of friction."),
        key<&Ground::restitution>("restitution", "", kFraction, "Coefficient of restitution."),
        table_key("mesh", "Ground meshes, in addition to the plane.")}};
   s.view = {

@@ -19,6 +19,14 @@ struct Preset {
   std::uint32_t full_detail;  ///< As in Limits, as chip_size_factor.
   double chip_size_factor;
   std::string_view help;
+
+  /// Sets the values of a scene.
+  void apply(Scene& scene) const {
+    scene.accuracy = accuracy;
+    scene.solver.sweeps = sweeps;
+    scene.limits.full_detail = full_detail;
+    scene.limits.chip_size_factor = chip_size_factor;
+  }
 };
 std::span<const Preset> presets();
 

@@ -106,6 +106,36 @@ static void query_by_callback(SunderWorld world, SunderBody wall, SunderBody cra
   EXPECT(count == 0 && refusal.calls == 0);
 }
 
+// A query's callback that asks the world, and tries to change it.
+typedef struct Meddler {
+  SunderWorld world;
+  int refused;
+} Meddler;
+
+static bool meddles(SunderBody body, void* user) {
+  Meddler* meddler = user;
+  SunderBodyInfo info;
+  OK(sunder_world_body(meddler->world, body, &info));
+  SunderBallDef ball = sunder_default_ball_def();
+  REFUSED(sunder_world_remove_body(meddler->world, body), ARGUMENT, "during a query");
+  REFUSED(sunder_world_add_ball(meddler->world, &ball, NULL), ARGUMENT, "during a query");
+  REFUSED(sunder_world_step(meddler->world, 0.01), ARGUMENT, "during a query");
+  REFUSED(sunder_world_set_user_data(meddler->world, body, 3), ARGUMENT, "during a query");
+  ++meddler->refused;
+  return info.mass_kg > 0;
+}
+
+static void a_callback_may_ask(SunderWorld world, SunderBody crate) {
+  Meddler meddler = {world, 0};
+  SunderQuery query = sunder_default_query();
+  query.accepts = meddles;
+  query.accepts_user = &meddler;
+  uint32_t count = 0;
+  OK(sunder_world_overlap_ball(world, vec(5, 3, 0), 0.1, &query, NULL, &count));
+  EXPECT(count == 1 && meddler.refused > 0);
+  OK(sunder_world_set_user_data(world, crate, 42));  // after the query
+}
+
 // Drops a crate, shoots at a wall, and asks what happened.
 static void a_short_game(void) {
   const SunderWorld world = make_world();
@@ -167,6 +197,7 @@ static void a_short_game(void) {
   EXPECT(count == 2 && overlaps[0].body.key == wall.key);
 
   query_by_callback(world, wall, crate);
+  a_callback_may_ask(world, crate);
 
   SunderShotDef shot = sunder_default_shot_def();
   shot.ball.radius_m = 0.25;
@@ -419,11 +450,39 @@ static void materials_and_meshes(void) {
     OK(sunder_world_add_solid(world, assets[i], &solid, NULL));
     OK(sunder_world_step(world, 0.01));
   }
+  // Another material has the same place in the list of another world.
   const SunderWorld other = make_world();
-  REFUSED(sunder_world_add_solid(other, ring, &solid, NULL), ARGUMENT, "has material");
+  SunderBallDef ball = sunder_default_ball_def();
+  SunderMaterial concrete, light;
+  OK(sunder_builtin_material("concrete", &concrete));
+  OK(sunder_world_material_def(other, concrete, &def));
+  OK(sunder_world_add_material(other, &def, &light));
+  REFUSED(sunder_world_add_solid(other, ring, &solid, NULL), ARGUMENT,
+          "lead glass of another world");
+  ball.material = heavy;
+  REFUSED(sunder_world_add_ball(other, &ball, NULL), ARGUMENT, "lead glass of another world");
+  REFUSED(sunder_world_material_def(other, heavy, &def), ARGUMENT, "lead glass of another world");
+  part = sunder_default_part_def();
+  part.material.index = 1000;
+  REFUSED(sunder_asset_create_parts(&part, 1, &never), ARGUMENT, "parts[0].material is 1000");
   uint32_t count = 1;
   OK(sunder_world_body_count(other, &count));
   EXPECT(count == 0);
+  // The same material in the same place is the same, in copies and elsewhere.
+  const SunderWorld same = make_world();
+  SunderWorld copy;
+  OK(sunder_world_material_def(world, heavy, &def));
+  OK(sunder_world_add_material(same, &def, &again));
+  EXPECT(again.index == heavy.index);
+  OK(sunder_world_add_solid(same, ring, &solid, NULL));
+  OK(sunder_world_copy(world, &copy));
+  OK(sunder_world_add_ball(copy, &ball, NULL));
+  SunderCastHit hit;
+  bool found = false;
+  OK(sunder_world_cast(same, vec(1, 5, 0), vec(0, -1, 0), 9, 0, NULL, &hit, &found));
+  EXPECT(found && hit.material.index == heavy.index);
+  OK(sunder_world_destroy(copy));
+  OK(sunder_world_destroy(same));
   OK(sunder_world_destroy(other));
   for (int i = 0; i < 3; ++i) OK(sunder_asset_destroy(assets[i]));
   OK(sunder_world_step(world, 0.01));

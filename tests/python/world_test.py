@@ -280,6 +280,65 @@ class Arrays(unittest.TestCase):
         self.assertEqual((empty.positions.shape, empty.rotations.shape), ((0, 3), (0, 4)))
 
 
+class Keywords(unittest.TestCase):
+    def test_that_are_misspelt_are_named(self):
+        world, box = box_world()
+        for call, named in ((lambda: world.add_ball(centre=(0, 3, 0)), "'centre'; did you mean 'center'"),
+                            (lambda: world.step(dt=0.01), "step() has no keyword 'dt'"),
+                            (lambda: sunder.World(sunder.Scene(), thread=1), "'thread'; did you mean 'threads'"),
+                            (lambda: sunder.Asset.from_boxes(box=[]), "'box'; did you mean 'boxes'"),
+                            (lambda: sunder.load_scene("house", prest="draft"), "'prest'; did you mean 'preset'")):
+            with self.assertRaises(TypeError) as refused:
+                call()
+            self.assertIn(named, str(refused.exception))
+        with self.assertRaises(TypeError) as refused:
+            world.add_ball(center="here")  # its value is wrong, not its name
+        self.assertIn("incompatible", str(refused.exception))
+
+
+class Materials(unittest.TestCase):
+    def test_of_one_world_are_not_taken_for_those_of_another(self):
+        granite = sunder.Material("granite", like="concrete")
+        mud = sunder.Material("mud", like="concrete")
+        mud.density_kg_m3 = 1500
+        for make in (sunder.Scene, lambda: sunder.World(sunder.Scene())):
+            one, two = make(), make()
+            index = one.add_material(granite)
+            self.assertEqual((index, two.add_material(mud)), (len(sunder.builtin_materials()),) * 2)
+            self.assertIsInstance(index, int)
+            asset = sunder.Asset.from_boxes([((0, 0, 0), (1, 1, 1))], material=index)
+            for call in (lambda: two.add_solid(asset),
+                         lambda: two.add_ball((0, 3, 0), material=index)):
+                with self.assertRaises(sunder.InputError) as refused:
+                    call()
+                self.assertIn("granite", str(refused.exception))
+            one.add_solid(asset)
+            one.add_ball((0, 3, 0), material=index)
+            two.add_ball((0, 3, 0), material=int(index))  # a plain number is what is there
+
+
+class Accuracy(unittest.TestCase):
+    def test_has_preset_and_sweeps(self):
+        scene = sunder.Scene()
+        self.assertEqual(scene.accuracy.preset, "realtime")
+        found = set()
+        for name in ("draft", "realtime", "accurate", "reference"):
+            scene.accuracy.preset = name
+            self.assertEqual(scene.accuracy.preset, name)
+            loaded = sunder.parse_scene("[scene]\ndescription = 'x'\n", preset=name)
+            values = [(one.accuracy.dt_s, one.accuracy.substeps, one.accuracy.sweeps,
+                       one.limits.full_detail, one.limits.chip_size_factor)
+                      for one in (scene, loaded)]
+            self.assertEqual(*values)
+            found.add(values[0])
+        self.assertEqual(len(found), 4)
+        scene.accuracy.sweeps = 7
+        self.assertEqual((scene.accuracy.sweeps, scene.accuracy.preset), (7, "custom"))
+        with self.assertRaises(sunder.InputError) as refused:
+            scene.accuracy.preset = "fast"
+        self.assertIn("draft", str(refused.exception))
+
+
 class WrongKeys(unittest.TestCase):
     def test_raise_input_errors_and_change_nothing(self):
         world, box = box_world()

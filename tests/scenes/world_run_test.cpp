@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <span>
@@ -178,22 +179,160 @@ TEST(World, MovesABodyToAPoseInTimeAndCarriesWhatRestsOnIt) {
   EXPECT_NEAR(world.body(platform).com_W.y(), 0.1, 0.02);
 }
 
-TEST(World, ReleasingAnAnchoredBodyLetsItFall) {
+TEST(World, ReleasingAnAnchoredBodyLetsItFallUnderItsKey) {
+  for (const double side_m : {1.0, 0.005}) {  // the second is below the smallest piece
+    SCOPED_TRACE(side_m);
+    World world = make_world(empty_scene());
+    const BodyKey key = world.add(box(Vec3::Constant(side_m), Vec3(0, 5, 0), "concrete", true));
+    const BodyKey hung = world.add(ball(Vec3(0, 4, 0)));
+    Joint rod;
+    rod.a = key.value;
+    rod.b = hung.value;
+    rod.at_W = Vec3(0, 5, 0);
+    rod.to_W = Vec3(0, 4, 0);
+    rod.kind = JointKind::kDistance;
+    const JointKey joint = world.add(rod);
+    run(world, 1);
+    ASSERT_TRUE(world.body(key).is_static);
+    ASSERT_NEAR(world.body(key).com_W.y(), 5, 1e-12);
+    world.set_user_data(key, 77);
+    world.release(key);
+    ASSERT_TRUE(world.contains(key));
+    EXPECT_FALSE(world.body(key).is_static);
+    world.step(kFrame_s);
+    EXPECT_THAT(world.events().appeared, testing::IsEmpty());
+    EXPECT_THAT(world.events().gone, testing::IsEmpty());
+    EXPECT_EQ(world.body(key).user_data, 77u);
+    EXPECT_EQ(world.body(key).root, key);
+    EXPECT_TRUE(world.contains(joint));
+    run(world, 0.5);
+    EXPECT_LT(world.body(key).com_W.y(), 4.5);
+    EXPECT_LT(world.body(hung).com_W.y(), 3.5);
+    EXPECT_EQ(world.size(), 2u);
+    World copy = restore_world(save_world(world));
+    EXPECT_EQ(hash_of(copy), hash_of(world));
+  }
+}
+
+TEST(World, AFilterMayAskTheWorldAndMayNotChangeIt) {
   World world = make_world(empty_scene());
-  const BodyKey key = world.add(box(Vec3(1, 1, 1), Vec3(0, 5, 0), "concrete", true));
-  run(world, 1);
-  ASSERT_TRUE(world.body(key).is_static);
-  ASSERT_NEAR(world.body(key).com_W.y(), 5, 1e-12);
-  world.set_user_data(key, 77);
-  world.release(key);
+  const BodyKey key = world.add(box(Vec3(1, 1, 1), Vec3(0, 0.5, 0)));
+  const JointKey joint = [&] {
+    Joint pin;
+    pin.a = key.value;
+    return world.add(pin);
+  }();
+  const std::uint64_t before = hash_of(world);
+  const Vec3 up = Vec3::UnitY();
+  const std::function<void()> changes[] = {
+      [&] { world.step(kFrame_s); },
+      [&] { world.set_threads(1); },
+      [&] { world.add(ball(Vec3(0, 5, 0))); },
+      [&] { world.add(box(Vec3(1, 1, 1), Vec3(3, 0.5, 0))); },
+      [&] { world.add(Asset(box(Vec3(1, 1, 1), up).compound), BodyMotion()); },
+      [&] { world.add(builtin_materials()[0]); },
+      [&] { world.add(Joint()); },
+      [&] { world.shoot(Shot()); },
+      [&] { world.blast(Blast()); },
+      [&] { world.drive(Drive()); },
+      [&] { world.remove(key); },
+      [&] { world.remove(joint); },
+      [&] { world.set_motion(key, BodyMotion()); },
+      [&] { world.move_to(key, Pose(), 1); },
+      [&] { world.release(key); },
+      [&] { world.apply_impulse(key, up, up); },
+      [&] { world.break_at(key, up, up, 1); },
+      [&] { world.set_user_data(key, 1); },
+      [&] {
+        world.set_filter(key, {2, 2});
+      },
+      [&] { world.report_hits(1); },
+  };
+  QueryFilter filter;
+  const std::function<void()> queries[] = {
+      [&] { world.cast(Vec3(0, 3, 0), -up, 10, 0, filter); },
+      [&] { world.cast_all(Vec3(0, 3, 0), -up, 10, 0.1, filter); },
+      [&] { world.overlap(Vec3(0, 0.5, 0), 0.2, filter); },
+      [&] {
+        world.overlap(Box{Vec3(-1, 0, -1), Vec3(1, 1, 1)}, filter);
+      },
+  };
+  int refused = 0;
+  for (const auto& change : changes) {
+    filter.accepts = [&](BodyKey) {
+      try {
+        change();
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("cannot change during a query"));
+        ++refused;
+      }
+      return true;
+    };
+    for (const auto& query : queries) query();
+  }
+  EXPECT_EQ(refused, static_cast<int>(std::size(changes) * std::size(queries)));
+  filter.accepts = [&](BodyKey of) {
+    World copy = world.copy();
+    copy.remove(of);  // a copy is another world
+    return world.body(of).mass_kg > 0 && world.cast(Vec3(0, 3, 0), -up, 10)->body == of;
+  };
+  EXPECT_EQ(world.cast(Vec3(0, 3, 0), -up, 10, 0, filter)->body, key);
+  filter.accepts = [&](BodyKey of) -> bool {
+    world.remove(of);
+    return true;
+  };
+  EXPECT_THROW(world.cast(Vec3(0, 3, 0), -up, 10, 0, filter), InputError);
+  EXPECT_EQ(hash_of(world), before);
+  world.remove(key);  // the query has ended
+}
+
+TEST(World, AnAssetIsRefusedWhereItsMaterialIsAnother) {
+  World one = make_world(empty_scene()), two = make_world(empty_scene());
+  Material granite = builtin_materials()[0], mud = granite;
+  granite.name = "granite";
+  mud.name = "mud";
+  const MaterialIndex index = one.add(granite);
+  Part part;
+  part.polyhedron = make_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  part.material = index;
+  const Asset asset(make_compound({part}), {{index, "granite"}, {MaterialIndex(0), "other"}});
+  one.add(asset, {});
+  EXPECT_THROW(two.add(asset, {}), InputError) << "it has no such material";
+  ASSERT_EQ(two.add(mud), index);
+  try {
+    two.add(asset, {});
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("granite, which is mud in this world"));
+  }
+  EXPECT_EQ(two.size(), 0u);
+  two.add(Asset(make_compound({part})), {});  // an index without a name stands for what is there
+}
+
+TEST(World, AConvexOfTooManyCornersIsRefused) {
+  const auto prism = [](int sides) {
+    std::vector<Vec2> outline;
+    for (int i = 0; i < sides; ++i) {
+      const double turn = -2 * M_PI * i / sides;
+      outline.emplace_back(std::cos(turn), std::sin(turn));
+    }
+    Part part;
+    part.polyhedron = make_prism(outline, 0, 1, false);
+    part.material = material("concrete");
+    return Asset(make_compound({part}));
+  };
+  for (const int sides : {10001, 10950, 15000}) {  // the solver aborted from 10,923 on
+    try {
+      prism(sides);
+      ADD_FAILURE() << sides;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("expected at most 60000 corners"));
+    }
+  }
+  World world = make_world(empty_scene());
+  const BodyKey key = world.add(prism(10000), {});
   world.step(kFrame_s);
-  ASSERT_EQ(world.events().appeared.size(), 1u);
-  const BodyKey free = world.events().appeared[0];
-  EXPECT_EQ(world.events().gone, std::vector{key});
-  EXPECT_EQ(world.body(free).user_data, 77u);
-  EXPECT_EQ(world.body(free).root, key);
-  run(world, 0.5);
-  EXPECT_LT(world.body(free).com_W.y(), 4.5);
+  EXPECT_EQ(world.body(key).convexes, 1u);
 }
 
 TEST(World, SetsTheMotionOfABody) {

@@ -1,15 +1,18 @@
 // Validation of what a scene is made of, and of what is added to a running world.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
+#include "engine/model/checks/ranges.h"
 #include "engine/model/scene.h"
 
 namespace sunder {
 
-/// Largest length, coefficient or other number, and largest time, that an input may have.
-inline constexpr double kMaxNumber = 1e9, kMaxTime_s = 1e7;
+/// Most corners of the faces of a convex: those of 10,000 points of which all are corners of
+/// triangles. The solver numbers up to 65,534, so that there is room for those that cuts add.
+inline constexpr std::size_t kMostConvexCorners = 60000;
 
 /// Returns the name of an item of a list, as in "balls[2]".
 std::string item(const char* list, std::size_t i);
@@ -26,6 +29,11 @@ class ItemCheck {
 
   [[noreturn]] void refuse(const std::string& what, const std::string& expected) const;
   void need_number(double number, double low, double high, const std::string& name) const;
+  void need_number(double number, const Range& range, const std::string& name) const {
+    need_number(number, range.low, range.high, name);
+  }
+  /// Refuses a vector with an element out of the range, or NaN.
+  void need_vector(const Vec3& vector, const Range& range, const std::string& name) const;
   void need_finite(const Vec3& vector, const std::string& name) const;
   void material_index(MaterialIndex index, const std::string& name) const;
   void pose(const Pose& X_W, const std::string& name) const;

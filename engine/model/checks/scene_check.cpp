@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/base/roots.h"
 #include "engine/model/checks/item_check.h"
@@ -30,24 +31,44 @@ class SceneCheck : private ItemCheck {
  private:
   void check_run() const {
     need_number(scene_.duration_s, 0, kMaxTime_s, "duration_s");
-    need_finite(scene_.gravity_W, "gravity_W");
+    need_vector(scene_.gravity_W, ranges::kGravity_m_s2, "gravity_W");
     const Accuracy& accuracy = scene_.accuracy;
-    need_number(accuracy.dt_s, 1e-6, 1, "accuracy.dt_s");
-    need_number(accuracy.substeps, 1, 1000, "accuracy.substeps");
+    need_number(accuracy.dt_s, ranges::kStep_s, "accuracy.dt_s");
+    need_number(accuracy.substeps, ranges::kSubsteps, "accuracy.substeps");
     const double steps = 1.0 / 60 / accuracy.dt_s;
     if (steps > 1 && std::abs(steps - std::round(steps)) > 1e-6 * steps)
       refuse("accuracy.dt_s is " + number_text(accuracy.dt_s),
              "a frame of 1/60 s divided by a whole number, such as 1/120");
-    need_number(accuracy.error_target_m, 0, kMaxNumber, "accuracy.error_target_m");
-    need_number(scene_.solver.sweeps, 1, 1000, "solver.sweeps");
-    need_number(scene_.solver.max_colors, 0, 64, "solver.max_colors");
-    need_number(scene_.solver.lanes, 0, 16, "solver.lanes");
-    need_number(scene_.limits.bodies, 1, 1e9, "limits.bodies");
-    need_number(scene_.limits.piece_size_factor, 0, kMaxNumber, "limits.piece_size_factor");
-    need_number(scene_.limits.chip_size_factor, 1, kMaxNumber, "limits.chip_size_factor");
-    need_number(scene_.ground.height_m, -kMaxNumber, kMaxNumber, "ground.height_m");
-    need_number(scene_.ground.friction, 0, kMaxNumber, "ground.friction");
-    need_number(scene_.ground.restitution, 0, 1, "ground.restitution");
+    need_number(accuracy.error_target_m, ranges::kErrorTarget_m, "accuracy.error_target_m");
+    need_number(scene_.solver.sweeps, ranges::kSweeps, "solver.sweeps");
+    need_number(scene_.solver.max_colors, ranges::kMaxColors, "solver.max_colors");
+    need_number(scene_.solver.lanes, ranges::kLanes, "solver.lanes");
+    check_limits();
+    need_number(scene_.ground.height_m, ranges::kPlace_m, "ground.height_m");
+    need_number(scene_.ground.friction, ranges::kFriction, "ground.friction");
+    need_number(scene_.ground.restitution, ranges::kFraction, "ground.restitution");
+  }
+
+  void check_limits() const {
+    const Limits& limits = scene_.limits;
+    const std::tuple<double, Range, const char*> numbers[] = {
+        {limits.bodies, ranges::kBodies, "bodies"},
+        {limits.ageing, ranges::kAgeing, "ageing"},
+        {limits.parts_a_frame, ranges::kPartsAFrame, "parts_a_frame"},
+        {limits.load_work_a_frame, ranges::kWork, "load_work_a_frame"},
+        {limits.debris, ranges::kDebris, "debris"},
+        {limits.dust, ranges::kDust, "dust"},
+        {limits.impact_bonds, ranges::kImpactBonds, "impact_bonds"},
+        {limits.impact_evaluations, ranges::kWork, "impact_evaluations"},
+        {limits.loaded_convexes, ranges::kLoadedConvexes, "loaded_convexes"},
+        {limits.cluster_bodies, ranges::kClusterBodies, "cluster_bodies"},
+        {limits.probe_events, ranges::kProbeEvents, "probe_events"},
+        {limits.break_rounds, ranges::kBreakRounds, "break_rounds"},
+        {limits.full_detail, ranges::kFullDetail, "full_detail"},
+        {limits.piece_size_factor, ranges::kPieceSizeFactor, "piece_size_factor"},
+        {limits.chip_size_factor, ranges::kChipSizeFactor, "chip_size_factor"}};
+    for (const auto& [number, range, key] : numbers)
+      need_number(number, range, std::string("limits.") + key);
   }
 
   /// Refuses a factor with which all pieces of the largest solid would be debris.
@@ -69,7 +90,8 @@ class SceneCheck : private ItemCheck {
     const GroundMesh& mesh = scene_.ground.meshes[i];
     const std::string name = item("ground.meshes", i);
     material_index(mesh.material, name);
-    for (const Vec3& vertex : mesh.vertices_W) need_finite(vertex, name + ".vertices_W");
+    for (const Vec3& vertex : mesh.vertices_W)
+      need_vector(vertex, ranges::kPlace_m, name + ".vertices_W");
     for (const auto& triangle : mesh.triangles) {
       if (std::ranges::max(triangle) >= mesh.vertices_W.size())
         refuse(name + " has a triangle with vertex " + std::to_string(std::ranges::max(triangle)),
@@ -114,7 +136,7 @@ class SceneCheck : private ItemCheck {
   template <class Act>
   void need_times(const std::vector<Act>& acts, const char* list) const {
     for (std::size_t i = 0; i < acts.size(); ++i) {
-      need_number(acts[i].time_s, -kMaxTime_s, kMaxTime_s, item(list, i) + ".time_s");
+      need_number(acts[i].time_s, ranges::kTime_s, item(list, i) + ".time_s");
       if (i > 0 && acts[i].time_s < acts[i - 1].time_s)
         refuse(item(list, i) + " comes before " + item(list, i - 1), "events in order of time");
     }
@@ -150,14 +172,14 @@ class SceneCheck : private ItemCheck {
   void check_move(const Move& move, const std::string& name) const {
     for (const std::uint32_t root : move.roots) need_roots({root}, scene_.solids.size(), name);
     if (std::isnan(move.release_s)) refuse(name + ".release_s is not a number", "a time");
-    need_finite(move.pivot_W.value_or(Vec3::Zero()), name + ".pivot_W");
+    need_vector(move.pivot_W.value_or(Vec3::Zero()), ranges::kPlace_m, name + ".pivot_W");
     double last_s = 0;
     for (const PathKey& key : move.path.keys) {
       if (!(key.time_s > last_s && key.time_s <= kMaxTime_s))
         refuse(name + ".path has a key at " + number_text(key.time_s) + " s",
                "times that ascend from 0");
       last_s = key.time_s;
-      need_finite(key.shift_W, name + ".path, shift_W");
+      need_vector(key.shift_W, ranges::kPlace_m, name + ".path, shift_W");
       need_finite(key.rotation_W, name + ".path, rotation_W");
     }
   }

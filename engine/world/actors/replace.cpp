@@ -112,10 +112,12 @@ struct Pieces {
   std::vector<Actor> actors;
   std::vector<BodyDesc> bodies;
 
-  /// Adds a piece as a body, or as debris if too small. Returns its key.
+  /// Adds a piece as a body, or as debris if too small. Returns its key. `is_parent`: the piece is
+  /// the parent without its anchors, which keeps its key, and its body if it is no fragment.
   std::uint32_t add(WorldState& world, const Compound& compound, bool hinged, const Actor& parent,
-                    const Motion& motion) {
-    if (!is_body(world, compound, hinged)) {
+                    const Motion& motion, bool is_parent = false) {
+    const bool is_kept = is_parent && parent.key == parent.root_key;
+    if (!is_kept && !is_body(world, compound, hinged)) {
       note_chip(world, compound, motion);
       return kNoActorKey;
     }
@@ -123,6 +125,7 @@ struct Pieces {
     // A piece that a hinge holds can break again in this step, as its parent could.
     piece.born_step = hinged ? parent.born_step : world.clock.step + 1;
     piece.inherit(parent);
+    if (is_parent) piece.key = parent.key;
     set_least(world, piece);  // recomputed, as it is a fragment
     count_limits(world, piece);
     world.log.debris_mass_kg -= piece.weight.mass_kg;
@@ -219,6 +222,9 @@ std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, Bre
   parent.structure.apply(edit);
   ++parent.edits;
   const bool stays = parent.is_static && parent.structure.is_anchored();
+  const bool is_whole =
+      edit.removed.empty() && edit.added.empty() && edit.cut.empty() && edit.loose.pieces.empty();
+  const bool is_freed = parent.is_static && !stays && is_whole;  // it lost its anchors only
 
   Pieces pieces;
   std::vector<std::uint32_t> keys{stays ? parent.key : kNoActorKey};  // indexed as in exposed faces
@@ -229,7 +235,7 @@ std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, Bre
       if (slot.value >= parent.meshes.size()) return;  // new slots
       drawn_before[&convex] = {parent.meshes[slot.value], parent.hidden[slot.value]};
     });
-    keys[0] = pieces.add(world, rest, is_hinged(edit, 0), parent, motion);
+    keys[0] = pieces.add(world, rest, is_hinged(edit, 0), parent, motion, is_freed);
   }
   for (const Compound& piece : edit.loose.pieces) {
     const auto number = static_cast<std::uint32_t>(keys.size());
@@ -265,6 +271,10 @@ std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, Bre
     world.log.momentum_error_Ns += (after - before).norm();
   }
   add_hinges(world, parent, edit, pieces.actors, keys);
+  if (is_freed && !pieces.actors.empty()) {
+    parent = std::move(pieces.actors[0]);
+    return {key};
+  }
   if (!stays) world.actors.erase(world.actors.place_of(parent));
   for (Actor& piece : pieces.actors) world.actors.add(std::move(piece));
   std::erase(keys, kNoActorKey);

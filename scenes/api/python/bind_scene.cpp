@@ -1,13 +1,16 @@
 // Materials, assets and scenes.
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "engine/base/check.h"
 #include "engine/geometry/hull.h"
 #include "engine/geometry/raw_mesh.h"
 #include "scenes/api/python/bindings.h"
+#include "scenes/file/keys.h"
 #include "scenes/file/make_compound.h"
 #include "scenes/file/mesh_solid.h"
+#include "scenes/file/schema.h"
 #include "scenes/load.h"
 
 namespace sunder::python {
@@ -55,9 +58,14 @@ scenes::MeshOptions mesh_options(const std::string& nodes, std::uint32_t convexe
   return options;
 }
 
-Asset asset_of_parts(std::vector<Part> parts) {
+/// Returns the index of a built-in material, or an index that was returned by add_material().
+MaterialIndex asset_material(const MaterialName& material) {
+  return material_of(material.index ? MaterialName{"", material.index} : material, builtin_names());
+}
+
+Asset asset_of_parts(std::vector<Part> parts, const MaterialName& material) {
   const py::gil_scoped_release release;
-  return Asset(scenes::make_compound(std::move(parts)));
+  return Asset(scenes::make_compound(std::move(parts)), names_of(material));
 }
 
 Part part_of(ConvexPolyhedron polyhedron, MaterialIndex material, bool anchored) {
@@ -70,16 +78,16 @@ Part part_of(ConvexPolyhedron polyhedron, MaterialIndex material, bool anchored)
 
 Asset asset_of_boxes(const std::vector<std::pair<Vec3, Vec3>>& boxes, const MaterialName& material,
                      bool anchored) {
-  const MaterialIndex index = material_of(material, builtin_names());
+  const MaterialIndex index = asset_material(material);
   std::vector<Part> parts;
   for (const auto& [low, high] : boxes)
     parts.push_back(part_of(make_box(low, high), index, anchored));
-  return asset_of_parts(std::move(parts));
+  return asset_of_parts(std::move(parts), material);
 }
 
 Asset asset_of_hulls(const std::vector<Points>& hulls, const MaterialName& material,
                      bool anchored) {
-  const MaterialIndex index = material_of(material, builtin_names());
+  const MaterialIndex index = asset_material(material);
   std::vector<Part> parts;
   for (std::size_t i = 0; i < hulls.size(); ++i) {
     const std::string name = "hulls[" + std::to_string(i) + "]";
@@ -87,19 +95,23 @@ Asset asset_of_hulls(const std::vector<Points>& hulls, const MaterialName& mater
     if (hull.empty()) throw InputError(name + ": the points enclose no volume");
     parts.push_back(part_of(std::move(hull), index, anchored));
   }
-  return asset_of_parts(std::move(parts));
+  return asset_of_parts(std::move(parts), material);
 }
 
 Asset asset_of_mesh(const std::filesystem::path& mesh, const MaterialName& material,
                     const scenes::MeshOptions& options) {
-  const MaterialIndex index = material_of(material, builtin_names());
+  const MaterialIndex index = asset_material(material);
   const py::gil_scoped_release release;
-  return Asset(scenes::make_compound(mesh.string(), index, options));
+  return Asset(scenes::make_compound(mesh.string(), index, options), names_of(material));
 }
 
-Asset asset_of_triangles(const Points& vertices, const Triangles& triangles,
+Asset asset_of_triangles(const Points& vertices, const py::array& given,
                          const MaterialName& material, const scenes::MeshOptions& options) {
-  const MaterialIndex index = material_of(material, builtin_names());
+  if (given.dtype().kind() != 'i' && given.dtype().kind() != 'u') {
+    throw InputError("triangles: expected an array of whole numbers, the indices of vertices");
+  }
+  const Triangles triangles(given);
+  const MaterialIndex index = asset_material(material);
   RawMesh mesh;
   mesh.vertices = points_of(vertices, "vertices");
   if (triangles.ndim() != 2 || triangles.shape(1) != 3) {
@@ -112,23 +124,24 @@ Asset asset_of_triangles(const Points& vertices, const Triangles& triangles,
     polygon.corner_count = 3;
     mesh.polygons.push_back(polygon);
     for (py::ssize_t corner = 0; corner < 3; ++corner) {
-      if (rows(i, corner) >= mesh.vertices.size()) {
+      const std::int64_t vertex = rows(i, corner);
+      if (vertex < 0 || vertex >= std::ssize(mesh.vertices)) {
         throw InputError("triangles[" + std::to_string(i) + "] has vertex " +
-                         std::to_string(rows(i, corner)) + "; expected an index below " +
+                         std::to_string(vertex) + "; expected an index from 0 and below " +
                          std::to_string(mesh.vertices.size()));
       }
-      mesh.corners.push_back(rows(i, corner));
+      mesh.corners.push_back(static_cast<std::uint32_t>(vertex));
     }
   }
   const py::gil_scoped_release release;
   scenes::MeshSolid solid = scenes::make_mesh_solid(std::move(mesh), "the mesh", options);
   scenes::set_materials(solid.compound, {index});
-  return Asset(std::move(solid.compound));
+  return Asset(std::move(solid.compound), names_of(material));
 }
 
 /// Inserts a material of a name that a scene does not have, or replaces the one that it has.
 /// Returns its index.
-std::uint32_t add_material(Scene& scene, const Material& material) {
+AddedMaterial add_material(Scene& scene, const Material& material) {
   const auto same = [&](const Material& other) { return other.name == material.name; };
   const auto found = std::ranges::find_if(scene.materials, same);
   const auto index = static_cast<std::uint32_t>(found - scene.materials.begin());
@@ -137,8 +150,33 @@ std::uint32_t add_material(Scene& scene, const Material& material) {
   } else {
     *found = material;
   }
-  return index;
+  return {index, material.name};
 }
+
+/// Step, substeps and sweeps of a scene, and the preset that sets them.
+struct SceneAccuracy {
+  std::shared_ptr<Scene> scene;
+
+  /// Returns the name of the preset that has these values; "custom" if none has.
+  std::string preset() const {
+    for (const scenes::Preset& preset : scenes::presets()) {
+      Scene other;
+      preset.apply(other);
+      const Scene& mine = *scene;
+      if (other.accuracy.dt_s == mine.accuracy.dt_s &&
+          other.accuracy.substeps == mine.accuracy.substeps &&
+          other.solver.sweeps == mine.solver.sweeps &&
+          other.limits.full_detail == mine.limits.full_detail &&
+          other.limits.chip_size_factor == mine.limits.chip_size_factor)
+        return std::string(preset.name);
+    }
+    return "custom";
+  }
+  void set_preset(const std::string& name) const {
+    const std::span<const scenes::Preset> all = scenes::presets();
+    all[scenes::find_named(all, name, "preset " + name + ": unknown")].apply(*scene);
+  }
+};
 
 }  // namespace
 
@@ -149,7 +187,7 @@ void bind_materials(py::module_& module) {
       .def(py::init([](const std::string& name, const std::string& like) {
              const std::vector<Material> all = scenes::builtin_materials();
              Material material;
-             if (!like.empty()) material = all[material_of(like, builtin_names()).value];
+             if (!like.empty()) material = all[material_of({like, {}}, builtin_names()).value];
              material.name = name;
              return material;
            }),
@@ -222,7 +260,7 @@ void bind_assets(py::module_& module) {
                   "Makes an asset of convexes, each the hull of an array of points (n, 3).")
       .def_static(
           "from_triangles",
-          [](const Points& vertices, const Triangles& triangles, const MaterialName& material,
+          [](const Points& vertices, const py::array& triangles, const MaterialName& material,
              const std::string& nodes, std::uint32_t convexes, const std::string& fit,
              const std::string& repair) {
             return asset_of_triangles(
@@ -292,9 +330,23 @@ void bind_scenes(py::module_& module) {
       .def_readwrite("passed_impacts", &Limits::passed_impacts,
                      "False: impacts break only the two bodies that meet.");
 
-  py::class_<Accuracy>(module, "Accuracy", "Step and substeps of a run.")
-      .def_readwrite("dt_s", &Accuracy::dt_s, "Step in s: 1/60 divided by a whole number.")
-      .def_readwrite("substeps", &Accuracy::substeps, "Substeps of a step.");
+  py::class_<SceneAccuracy>(module, "Accuracy", "Step, substeps and sweeps of the run of a scene.")
+      .def_property("preset", &SceneAccuracy::preset, &SceneAccuracy::set_preset,
+                    "Name of the preset with these values: draft, realtime, accurate or "
+                    "reference; \"custom\" if there is none. Setting a name sets its values, and "
+                    "`full_detail` and `chip_size_factor` of the limits.")
+      .def_property(
+          "dt_s", [](const SceneAccuracy& self) { return self.scene->accuracy.dt_s; },
+          [](const SceneAccuracy& self, double dt_s) { self.scene->accuracy.dt_s = dt_s; },
+          "Step in s: 1/60 divided by a whole number.")
+      .def_property(
+          "substeps", [](const SceneAccuracy& self) { return self.scene->accuracy.substeps; },
+          [](const SceneAccuracy& self, int count) { self.scene->accuracy.substeps = count; },
+          "Substeps of a step.")
+      .def_property(
+          "sweeps", [](const SceneAccuracy& self) { return self.scene->solver.sweeps; },
+          [](const SceneAccuracy& self, int count) { self.scene->solver.sweeps = count; },
+          "Sweeps of the contact solver in a substep.");
 
   py::class_<Scene, std::shared_ptr<Scene>>(
       module, "Scene", "All inputs of a run: materials, solids, balls and a script.")
@@ -312,7 +364,9 @@ void bind_scenes(py::module_& module) {
       .def_readwrite("seed", &Scene::seed, "Seed of everything random.")
       .def_readonly("planar", &Scene::planar, "True if the scene moves in the plane z = 0.")
       .def_readonly("limits", &Scene::limits, "Limits of the run.")
-      .def_readonly("accuracy", &Scene::accuracy, "Step and substeps.")
+      .def_property_readonly(
+          "accuracy", [](std::shared_ptr<Scene> self) { return SceneAccuracy{std::move(self)}; },
+          "Step, substeps and sweeps, and their preset.")
       .def_property(
           "ground_friction", [](const Scene& scene) { return scene.ground.friction; },
           [](Scene& scene, double friction) { scene.ground.friction = friction; },
@@ -346,6 +400,8 @@ void bind_scenes(py::module_& module) {
           "add_solid",
           [](Scene& scene, const Asset& asset, const Vec3& origin, const Xyzw& rotation,
              const Vec3& velocity, const Vec3& angular_velocity, const std::string& name) {
+            for (const auto& [index, material] : asset.materials())
+              material_of({material, index.value}, names_of(scene.materials));
             Solid solid;
             solid.name = name;
             solid.compound = asset.compound();

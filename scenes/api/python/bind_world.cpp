@@ -125,10 +125,10 @@ class PythonWorld {
     return {arrays_};
   }
   MaterialIndex material(const MaterialName& name) const { return material_of(name, materials_); }
-  std::uint32_t add(const Material& material) {
+  AddedMaterial add(const Material& material) {
     const MaterialIndex index = change().add(material);
     materials_.push_back(material.name);
-    return index.value;
+    return {index.value, material.name};
   }
   const std::vector<std::string>& materials() const { return materials_; }
   const std::vector<std::string>& warnings() const { return *warnings_; }
@@ -543,7 +543,8 @@ void bind_actions(WorldClass& type) {
       .def(
           "release",
           [](PythonWorld& self, std::int64_t body) { self.change().release(body_key(body)); },
-          py::arg("body"), "Frees a kinematic body, or removes all anchors of an anchored one.")
+          py::arg("body"),
+          "Frees a kinematic body, or removes all anchors of an anchored one. It keeps its key.")
       .def(
           "apply_impulse",
           [](PythonWorld& self, std::int64_t body, const Vec3& impulse, std::optional<Vec3> point) {

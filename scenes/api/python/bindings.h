@@ -34,11 +34,19 @@ namespace py = pybind11;
 
 /// Quaternion as Python passes it: x, y, z, w.
 using Xyzw = Eigen::Vector4d;
-/// A material by its name, or by its index.
-using MaterialName = std::variant<std::string, std::uint32_t>;
+/// A material by its name, or by its index. Indices that add_material() returned know the name.
+struct MaterialName {
+  std::string name;  ///< Empty: whatever has the index.
+  std::optional<std::uint32_t> index;
+};
+/// The index of a material that was added.
+struct AddedMaterial {
+  std::uint32_t index = 0;
+  std::string name;
+};
 /// An array of points, or of triangles.
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Triangles = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
+using Triangles = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
 /// A frame in Python.
 struct SharedFrame {
@@ -67,8 +75,10 @@ Pose pose_of(const Vec3& position, const Xyzw& xyzw);
 /// shape.
 std::vector<Vec3> points_of(const Points& points, const std::string& name);
 /// Returns the index of a material among `names`. Throws InputError that lists the names if there
-/// is none of this name; indices are checked by their user.
+/// is none of this name, or if an index has another name; other indices are checked by their user.
 MaterialIndex material_of(const MaterialName& material, const std::vector<std::string>& names);
+/// Returns the name that worlds must have at the index of a material; none if any may be there.
+Asset::MaterialNames names_of(const MaterialName& material);
 std::vector<std::string> names_of(std::span<const Material> materials);
 /// Returns the names of the built-in materials, which the lists of all scenes begin with.
 const std::vector<std::string>& builtin_names();
@@ -106,6 +116,8 @@ py::dict dict_of(const FrameReport& report);
 /// Returns the hash of one state: 16 hexadecimal digits.
 std::string hash_of(const FramePtr& frame);
 
+/// Makes the class of the indices that add_material() returns.
+void bind_added_materials(py::module_& module);
 void bind_materials(py::module_& module);
 void bind_assets(py::module_& module);
 void bind_scenes(py::module_& module);
@@ -116,3 +128,19 @@ void bind_fracture(py::module_& module);
 void bind_renderer(py::module_& module);
 
 }  // namespace sunder::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<sunder::python::MaterialName> {
+  PYBIND11_TYPE_CASTER(sunder::python::MaterialName, const_name("Union[str, int]"));
+  bool load(handle from, bool convert);
+};
+
+template <>
+struct type_caster<sunder::python::AddedMaterial> {
+  PYBIND11_TYPE_CASTER(sunder::python::AddedMaterial, const_name("int"));
+  static handle cast(const sunder::python::AddedMaterial& added, return_value_policy, handle);
+};
+
+}  // namespace pybind11::detail

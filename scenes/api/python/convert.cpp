@@ -1,3 +1,5 @@
+#include <pybind11/eval.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -75,15 +77,40 @@ const std::vector<std::string>& builtin_names() {
 }
 
 MaterialIndex material_of(const MaterialName& material, const std::vector<std::string>& names) {
-  if (const auto* index = std::get_if<std::uint32_t>(&material)) {
+  const std::string& name = material.name;
+  if (const std::optional<std::uint32_t> index = material.index) {
+    if (!name.empty() && (*index >= names.size() || names[*index] != name)) {
+      throw InputError("material " + std::to_string(*index) + " was " + name +
+                       " where it was added, and is " +
+                       (*index < names.size() ? names[*index] : "nothing") +
+                       " here; pass the name, or add the material here");
+    }
     return MaterialIndex(std::size_t{*index});
   }
-  const std::string& name = std::get<std::string>(material);
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
     throw InputError("there is no material '" + name + "'; materials: " + joined(names));
   }
   return MaterialIndex(static_cast<std::size_t>(found - names.begin()));
+}
+
+Asset::MaterialNames names_of(const MaterialName& material) {
+  if (!material.index || material.name.empty()) return {};
+  return {{MaterialIndex(std::size_t{*material.index}), material.name}};
+}
+
+void bind_added_materials(py::module_& module) {
+  py::dict scope;
+  scope["__builtins__"] = py::module_::import("builtins");
+  scope["__name__"] = "sunder";
+  py::exec(R"(
+class MaterialIndex(int):
+    """Index of a material that was added, which knows the material's name."""
+    def __reduce__(self):
+        return int, (int(self),)
+)",
+           scope, scope);
+  module.attr("_MaterialIndex") = scope["MaterialIndex"];
 }
 
 PatternSpec pattern_of(const std::string& text) {
@@ -179,3 +206,26 @@ std::string hash_of(const FramePtr& frame) {
 }
 
 }  // namespace sunder::python
+
+namespace pybind11::detail {
+
+bool type_caster<sunder::python::MaterialName>::load(handle from, bool convert) {
+  if (isinstance<str>(from)) {
+    value = {from.cast<std::string>(), std::nullopt};
+    return true;
+  }
+  make_caster<std::uint32_t> number;
+  if (!number.load(from, convert)) return false;
+  value = {"", cast_op<std::uint32_t>(number)};
+  if (hasattr(from, "material_name")) value.name = from.attr("material_name").cast<std::string>();
+  return true;
+}
+
+handle type_caster<sunder::python::AddedMaterial>::cast(const sunder::python::AddedMaterial& added,
+                                                        return_value_policy, handle) {
+  object index = module_::import("sunder._core").attr("_MaterialIndex")(added.index);
+  index.attr("material_name") = added.name;
+  return index.release();
+}
+
+}  // namespace pybind11::detail

@@ -25,6 +25,7 @@ PYBIND11_MODULE(_core, module) {
   const pybind11::object own_name = module.attr("__name__");
   module.attr("__name__") = "sunder";
   bind_errors(module);
+  bind_added_materials(module);
   bind_materials(module);
   bind_assets(module);
   bind_scenes(module);

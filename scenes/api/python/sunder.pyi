@@ -10,7 +10,14 @@ __version__: str
 
 
 class Accuracy:
-    """Step and substeps of a run."""
+    """Step, substeps and sweeps of the run of a scene."""
+    @property
+    def preset(self) -> str:
+        """Name of the preset with these values: draft, realtime, accurate or reference; "custom"
+        if there is none. Setting a name sets its values, and `full_detail` and
+        `chip_size_factor` of the limits."""
+    @preset.setter
+    def preset(self, value: str) -> None: ...
     @property
     def dt_s(self) -> float:
         """Step in s: 1/60 divided by a whole number."""
@@ -21,6 +28,11 @@ class Accuracy:
         """Substeps of a step."""
     @substeps.setter
     def substeps(self, value: int) -> None: ...
+    @property
+    def sweeps(self) -> int:
+        """Sweeps of the contact solver in a substep."""
+    @sweeps.setter
+    def sweeps(self, value: int) -> None: ...
 
 
 class Asset:
@@ -42,7 +54,7 @@ class Asset:
     def from_hulls(hulls: List[ArrayLike], material: Union[str, int] = 'concrete', anchored: bool = False) -> Asset:
         """Makes an asset of convexes, each the hull of an array of points (n, 3)."""
     @staticmethod
-    def from_triangles(vertices: ArrayLike, triangles: ArrayLike, material: Union[str, int] = 'concrete', nodes: str = '', convexes: int = 0, fit: str = 'hull:24', repair: str = 'auto') -> Asset:
+    def from_triangles(vertices: ArrayLike, triangles: NDArray[Any], material: Union[str, int] = 'concrete', nodes: str = '', convexes: int = 0, fit: str = 'hull:24', repair: str = 'auto') -> Asset:
         """Makes an asset of a triangle mesh: arrays (n, 3) of points, and of vertex indices,
         counter-clockwise seen from outside. The mesh is repaired and decomposed as a file is."""
     @property
@@ -661,7 +673,7 @@ class Scene:
         """Limits of the run."""
     @property
     def accuracy(self) -> Accuracy:
-        """Step and substeps."""
+        """Step, substeps and sweeps, and their preset."""
     @property
     def ground_friction(self) -> float:
         """Coefficient of friction of the ground plane."""
@@ -779,7 +791,7 @@ class World:
         """Moves a body evenly to a pose within a time, as a kinematic body: of infinite mass, and
         unbreakable. It stays there until it is moved on or released."""
     def release(self, body: int) -> None:
-        """Frees a kinematic body, or removes all anchors of an anchored one."""
+        """Frees a kinematic body, or removes all anchors of an anchored one. It keeps its key."""
     def apply_impulse(self, body: int, impulse: ArrayLike, point: Optional[ArrayLike] = None) -> None:
         """Applies an impulse in N s at a point; None: at the centre of mass."""
     def break_at(self, body: int, point: ArrayLike, direction: ArrayLike, energy_J: float, pattern: Optional[str] = None) -> None:
