@@ -14,6 +14,12 @@
 #include <tuple>
 #include <vector>
 
+// Layouts of Eigen's types, and the bits of inline functions, depend on these settings.
+#ifndef EIGEN_DONT_VECTORIZE
+#error \
+    "Sunder is compiled with EIGEN_DONT_VECTORIZE and -ffp-contract=off, and so must be what \
+includes its headers: link the CMake target sunder::sunder, which has these options"
+#endif
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -45,6 +51,9 @@ struct Pose {
     return position == other.position && rotation.coeffs() == other.rotation.coeffs();
   }
 };
+
+static_assert(sizeof(Pose) == 7 * sizeof(double) && alignof(Pose) == alignof(double),
+              "Eigen was included before with other options than those of Sunder's library");
 
 /// An axis-aligned bounding box; empty (min > max) until extended.
 struct Box {

@@ -17,6 +17,13 @@ run(${CMAKE_COMMAND} -G Ninja -S ${work}/source -B ${work}/build -DCMAKE_BUILD_T
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${work}/build)
 run(${CMAKE_COMMAND} -E chdir ${work}/build ./consumer)
+# Without the options of the library, whose layouts are others, nothing is compiled.
+file(WRITE ${work}/other.cpp "#include <sunder/types.h>\n")
+execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only -I${prefix}/include
+  -isystem /usr/include/eigen3 ${work}/other.cpp RESULT_VARIABLE compiled ERROR_VARIABLE said)
+if(compiled EQUAL 0 OR NOT said MATCHES "EIGEN_DONT_VECTORIZE")
+  message(FATAL_ERROR "compiled without EIGEN_DONT_VECTORIZE: ${said}")
+endif()
 file(COPY ${ROOT}/examples/minimal.c DESTINATION ${work}/source/c)
 run(${CMAKE_COMMAND} -G Ninja -S ${work}/source/c -B ${work}/build-c -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_PREFIX_PATH=${prefix})

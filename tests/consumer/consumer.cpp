@@ -36,6 +36,8 @@ void a_scene_made_in_code() {
   box.compound = sunder::scenes::make_compound({part});
   box.X_WR.position = {0, 10, 0};
   scene.solids.push_back(box);
+  const sunder::Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  expect(sunder::make_hull(corners).faces.size() == 4, "sunder.h has make_hull()");
   sunder::Solid ring;
   ring.name = "ring";
   ring.compound = sunder::scenes::make_compound("torus:1,0.3", part.material);

@@ -76,6 +76,23 @@ TEST(SceneCheck, NamesWhatIsWrong) {
        [](Scene& s) {
          s.removals[0].roots = {2, 0};
        }},
+      {"materials[0].impact_radius_m is 0; expected a number from 0.001 to inf",
+       [](Scene& s) { s.materials[0].impact_radius_m = 0; }},
+      {"materials[0].stronger[0].impact_radius_m is 1e-300",
+       [](Scene& s) {
+         s.materials[0].stronger.resize(1);
+         s.materials[0].stronger[0].impact_radius_m = 1e-300;
+       }},
+      {"materials[0].elongation is 0", [](Scene& s) { s.materials[0].elongation = 0; }},
+      {"materials[0].pattern.spokes is 2", [](Scene& s) { s.materials[0].pattern.spokes = 2; }},
+      {"materials[0].pattern.cells is 31 along each side of a grid; expected a number from 2 to 30",
+       [](Scene& s) {
+         s.materials[0].pattern.kind = PatternSpec::Kind::kGrid;
+         s.materials[0].pattern.cells = 31;
+       }},
+      {"balls[0].center_W has the element 1e+10",
+       [](Scene& s) { s.balls[0].center_W.x() = 1e10; }},
+      {"limits.cluster_bodies is 0", [](Scene& s) { s.limits.cluster_bodies = 0; }},
       {"materials[0].pattern.cells",
        [](Scene& s) { s.materials[0].pattern.cells = -1; }},
       {"materials[0].pattern.file",

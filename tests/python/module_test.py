@@ -145,6 +145,9 @@ class Assets(unittest.TestCase):
     def test_of_triangles_with_a_wrong_index_raise(self):
         with self.assertRaisesRegex(sunder.InputError, "vertex 9"):
             sunder.Asset.from_triangles(np.eye(3), [[0, 1, 9]])
+        for wrong in (-1, 2**32, 2**32 + 1, -2**32, 2**63, 0.5, float("nan")):  # some of them wrapped
+            with self.assertRaises(sunder.InputError):
+                sunder.Asset.from_triangles(np.eye(3), [[0, 1, wrong]])
 
 
 class Frames(unittest.TestCase):

@@ -1,11 +1,12 @@
 // Materials, assets and scenes.
 #include <algorithm>
-#include <iterator>
+#include <cmath>
 #include <sstream>
 
 #include "engine/base/check.h"
 #include "engine/geometry/hull.h"
 #include "engine/geometry/raw_mesh.h"
+#include "engine/model/checks/item_check.h"
 #include "scenes/api/python/bindings.h"
 #include "scenes/file/keys.h"
 #include "scenes/file/make_compound.h"
@@ -105,12 +106,8 @@ Asset asset_of_mesh(const std::filesystem::path& mesh, const MaterialName& mater
   return Asset(scenes::make_compound(mesh.string(), index, options), names_of(material));
 }
 
-Asset asset_of_triangles(const Points& vertices, const py::array& given,
+Asset asset_of_triangles(const Points& vertices, const Triangles& triangles,
                          const MaterialName& material, const scenes::MeshOptions& options) {
-  if (given.dtype().kind() != 'i' && given.dtype().kind() != 'u') {
-    throw InputError("triangles: expected an array of whole numbers, the indices of vertices");
-  }
-  const Triangles triangles(given);
   const MaterialIndex index = asset_material(material);
   RawMesh mesh;
   mesh.vertices = points_of(vertices, "vertices");
@@ -124,10 +121,11 @@ Asset asset_of_triangles(const Points& vertices, const py::array& given,
     polygon.corner_count = 3;
     mesh.polygons.push_back(polygon);
     for (py::ssize_t corner = 0; corner < 3; ++corner) {
-      const std::int64_t vertex = rows(i, corner);
-      if (vertex < 0 || vertex >= std::ssize(mesh.vertices)) {
-        throw InputError("triangles[" + std::to_string(i) + "] has vertex " +
-                         std::to_string(vertex) + "; expected an index from 0 and below " +
+      const double vertex = rows(i, corner);
+      if (!(vertex >= 0 && vertex < static_cast<double>(mesh.vertices.size())) ||
+          vertex != std::floor(vertex)) {
+        throw InputError("triangles[" + std::to_string(i) + "] has vertex " + number_text(vertex) +
+                         "; expected an index from 0 and below " +
                          std::to_string(mesh.vertices.size()));
       }
       mesh.corners.push_back(static_cast<std::uint32_t>(vertex));
@@ -260,7 +258,7 @@ void bind_assets(py::module_& module) {
                   "Makes an asset of convexes, each the hull of an array of points (n, 3).")
       .def_static(
           "from_triangles",
-          [](const Points& vertices, const py::array& triangles, const MaterialName& material,
+          [](const Points& vertices, const Triangles& triangles, const MaterialName& material,
              const std::string& nodes, std::uint32_t convexes, const std::string& fit,
              const std::string& repair) {
             return asset_of_triangles(

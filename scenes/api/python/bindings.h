@@ -44,9 +44,9 @@ struct AddedMaterial {
   std::uint32_t index = 0;
   std::string name;
 };
-/// An array of points, or of triangles.
+/// An array of points, or of triangles: a conversion to integers would wrap what is out of range.
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Triangles = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+using Triangles = Points;
 
 /// A frame in Python.
 struct SharedFrame {
