@@ -46,7 +46,7 @@ Keys<MeshTable> make_mesh_keys() {
 }
 
 Keys<BodyTable> make_body_keys() {
-  constexpr Range kSpeed{-1e4, 1e4};
+  constexpr Range kSpeed = ranges::kSpeed;
   return {"[[body]]",
           {key<&BodyTable::name>("name", "Name in messages; that of the mesh by default."),
            key<&BodyTable::velocity>("velocity", "m/s", kSpeed, "Initial velocity."),

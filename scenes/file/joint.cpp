@@ -9,7 +9,7 @@ namespace {
 
 using Kind = JointKind;
 constexpr std::string_view kKinds[] = {"ball", "hinge", "fixed", "distance", "rope"};
-constexpr Range kPlace{-1e6, 1e6};
+constexpr Range kPlace = ranges::kPlace_m;
 constexpr Range kLoad{0, std::numeric_limits<double>::infinity()};
 
 Keys<JointTable> make_keys() {

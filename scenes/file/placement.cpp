@@ -13,7 +13,7 @@ constexpr std::string_view kMirrors[] = {"none", "x", "y", "z", "xz"};
 constexpr std::size_t kMaxCopies = 20000;
 
 Keys<PlacementTable> make_placement_keys() {
-  constexpr Range kPlace{-1e6, 1e6}, kTurn{-6.2832, 6.2832};
+  constexpr Range kPlace = ranges::kPlace_m, kTurn{-6.2832, 6.2832};
   return {
       "[[solid]], [[solid.part]], [[body]]",
       {key<&PlacementTable::position>("position", "m", kPlace,
@@ -30,7 +30,7 @@ Keys<PlacementTable> make_placement_keys() {
 }
 
 Keys<RepeatTable> make_repeat_keys() {
-  constexpr Range kPlace{-1e6, 1e6}, kTurn{-6.2832, 6.2832};
+  constexpr Range kPlace = ranges::kPlace_m, kTurn{-6.2832, 6.2832};
   return {
       "[solid.repeat], [solid.part.repeat], [body.repeat]",
       {key<&RepeatTable::count>("count", "", Range{1, kMaxCopies},

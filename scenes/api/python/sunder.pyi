@@ -54,7 +54,7 @@ class Asset:
     def from_hulls(hulls: List[ArrayLike], material: Union[str, int] = 'concrete', anchored: bool = False) -> Asset:
         """Makes an asset of convexes, each the hull of an array of points (n, 3)."""
     @staticmethod
-    def from_triangles(vertices: ArrayLike, triangles: NDArray[Any], material: Union[str, int] = 'concrete', nodes: str = '', convexes: int = 0, fit: str = 'hull:24', repair: str = 'auto') -> Asset:
+    def from_triangles(vertices: ArrayLike, triangles: ArrayLike, material: Union[str, int] = 'concrete', nodes: str = '', convexes: int = 0, fit: str = 'hull:24', repair: str = 'auto') -> Asset:
         """Makes an asset of a triangle mesh: arrays (n, 3) of points, and of vertex indices,
         counter-clockwise seen from outside. The mesh is repaired and decomposed as a file is."""
     @property
