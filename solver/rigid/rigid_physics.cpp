@@ -194,6 +194,7 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
     const BodySlot body = bodies_.slot(id);  // fails for an id given twice
     sleep_.wake_joined(joints_.all(), body, options_.gravity_W, contacts_, bodies_);
     joints_.detach(body, bodies_);
+    paused_.remove(body);
     bodies_.remove(body);
     contacts_.body_colors[body] = 0;
   }

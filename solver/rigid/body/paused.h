@@ -14,6 +14,10 @@ class Paused {
  public:
   /// Pauses a body for the solve between the next suspend() and resume().
   void add(BodySlot body) { items_.push_back({body}); }
+  /// Must be called before a body is removed: another may take its slot.
+  void remove(BodySlot body) {
+    std::erase_if(items_, [&](const Item& item) { return item.body == body; });
+  }
   /// Stores the motion of paused bodies that are awake, and puts them to sleep.
   void suspend(Bodies& bodies) {
     std::erase_if(items_, [&](const Item& item) { return !bodies.awake(item.body); });

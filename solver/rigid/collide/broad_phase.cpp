@@ -91,6 +91,7 @@ void BroadPhase::add(std::span<const ShapeSlot> added, const Shapes& shapes, con
   half_space_of_.resize(shapes.size(), -1);
   for (const ShapeSlot s : added) {
     fat_[s] = FloatBox();
+    has_skipped_[s] = 0;
     if (shapes[s].kind == ShapeDesc::Kind::kHalfSpace) {
       add_half_space(s, shapes, bodies);
     } else if (bodies.mobile(shapes[s].body)) {

@@ -213,7 +213,6 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
   m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
-  m.is_ball_pair = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
   build_manifold(
       pair, bodies, motion, axis.normal_A, scratch.points, std::max(0.f, time) * motion.velocity_W,
       reach.spin_m + reach.displacement_m < kKeptPointMotion * m.size_m ? limit : kNoPoint, m);
@@ -304,6 +303,7 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
   if (m.count == 0 && still_separated(a, b, motion, axis_reach, pair)) return;
   if (m.count == 0 && edges_at_rest(a, b, motion, reach, size_m, pair, scratch)) return;
   m.size_m = size_m;
+  m.is_ball_pair = a.kind == Kind::kSphere && b.kind == Kind::kSphere;
   m.friction = std::sqrt(a.friction * b.friction);
   m.rolling_m = std::max(a.rolling, b.rolling) * size_m;
   m.restitution = std::max(a.restitution, b.restitution);
