@@ -18,11 +18,14 @@ bool ContactListener::are_asleep(const PairImpulse& p) const {
   return still(p.body_a) && still(p.body_b);
 }
 
-void ContactListener::begin() {
+void ContactListener::begin(float scale) {
   impulse_from_static.SetZero();
   std::erase_if(pair_impulses,
                 [&](const auto& entry) { return entry.second.ended || !are_asleep(entry.second); });
-  for (auto& [pair, p] : pair_impulses) p.steps = -1;  // marks sums of earlier solves
+  for (auto& [pair, p] : pair_impulses) {
+    p.steps = -1;  // marks sums of earlier solves
+    p.impulse *= scale, p.moment *= scale, p.weight *= scale;
+  }
 }
 
 void ContactListener::end(int steps) {

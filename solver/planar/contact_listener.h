@@ -26,8 +26,9 @@ class ContactListener final : public b2ContactListener {
   };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< Shape slots in ascending order.
 
-  /// Starts a solve: drops the sums of all pairs but sleeping ones.
-  void begin();
+  /// Starts a solve: drops the sums of all pairs but sleeping ones, which it multiplies by
+  /// `scale`, the length of the solve over that of the last one.
+  void begin(float scale);
   /// Ends a solve of `steps` Box2D steps: extrapolates pairs that fell asleep in it to all steps.
   void end(int steps);
 

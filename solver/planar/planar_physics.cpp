@@ -67,6 +67,7 @@ class PlanarPhysics final : public Physics {
   Vec3 momentum_Ns() const;
   double kinetic_J() const;
   void step(float h_s, SolveReport& report);
+  void scale_sleeping_contacts(float scale, std::span<const std::uint8_t> awake);
   void freeze_not_finite(SolveReport& report);
   int steps_for(double dt_s, int substeps, LimitsHit& limits) const;
   const std::vector<FixtureContact>& contacts();
@@ -87,8 +88,9 @@ class PlanarPhysics final : public Physics {
   BodyTable table_;
   std::vector<FixtureContact> contacts_;
   bool contacts_valid_ = false;
-  double dt_s_ = 0;      ///< Step of the last collide().
-  double last_h_s_ = 0;  ///< Duration of Box2D's last step; 0 before the first.
+  double dt_s_ = 0;       ///< Step of the last collide().
+  double last_h_s_ = 0;   ///< Duration of Box2D's last step; 0 before the first.
+  double last_dt_s_ = 0;  ///< Duration of the last solve; 0 before the first.
   WorkLog work_;
 };
 
@@ -261,10 +263,13 @@ SolveReport PlanarPhysics::solve(double dt_s, int substeps) {
   freeze_not_finite(report);
   const double before_J = kinetic_J();
   const int steps = steps_for(dt_s, substeps, report.limits);
-  listener_.begin();
-  for (int i = 0; i < steps; ++i) step(static_cast<float>(dt_s / steps), report);
+  listener_.begin(last_dt_s_ > 0 ? static_cast<float>(dt_s / last_dt_s_) : 1);
+  for (int i = 0; i < steps; ++i) {
+    step(static_cast<float>(dt_s / steps), report);
+    last_h_s_ = dt_s / steps;
+  }
   listener_.end(steps);
-  last_h_s_ = dt_s / steps;
+  last_dt_s_ = dt_s;
   freeze_not_finite(report);
   report.external_impulse_Ns += plane_.metres(listener_.impulse_from_static);
   for (const b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
@@ -308,6 +313,8 @@ void PlanarPhysics::step(float h_s, SolveReport& report) {
     if (awake[i]) bodies_.items[i].last_velocity = bodies_.items[i].body->GetLinearVelocity();
   }
   world_.Step(h_s, kVelocityIterations, kPositionIterations);
+  if (last_h_s_ > 0 && h_s != static_cast<float>(last_h_s_))
+    scale_sleeping_contacts(h_s / static_cast<float>(last_h_s_), awake);
   for (std::size_t i = 0; i < bodies_.items.size(); ++i) {
     PlanarBody& body = bodies_.items[i];
     if (!body.dynamic()) continue;
@@ -322,6 +329,23 @@ void PlanarPhysics::step(float h_s, SolveReport& report) {
     if (awake[i] && !now) {
       report.external_impulse_Ns -= body.mass_kg * plane_.metres(body.last_velocity);
     }
+  }
+}
+
+/// Multiplies the impulses of contacts that Box2D's last step left out by `scale`. Box2D does this
+/// for the others.
+void PlanarPhysics::scale_sleeping_contacts(float scale, std::span<const std::uint8_t> awake) {
+  for (b2Contact* c = world_.GetContactList(); c; c = c->GetNext()) {
+    const auto solved = [&](b2Fixture* fixture) {
+      return awake[body_of(fixture->GetBody())] || fixture->GetBody()->IsAwake();
+    };
+    const auto dynamic = [](b2Fixture* fixture) {
+      return fixture->GetBody()->GetType() == b2_dynamicBody;
+    };
+    b2Fixture *a = c->GetFixtureA(), *b = c->GetFixtureB();
+    if ((dynamic(a) && solved(a)) || (dynamic(b) && solved(b))) continue;
+    for (b2ManifoldPoint& point : c->GetManifold()->points)
+      point.normalImpulse *= scale, point.tangentImpulse *= scale;
   }
 }
 

@@ -23,6 +23,7 @@
 #include "solver/rigid/collide/speculative_contacts.h"
 #include "solver/rigid/contact/contact_reports.h"
 #include "solver/rigid/contact/contact_solver.h"
+#include "solver/rigid/contact/kept_impulses.h"
 #include "solver/rigid/contact/static_warm_start.h"
 #include "solver/rigid/joint/joint.h"
 #include "solver/rigid/sleep.h"
@@ -84,7 +85,7 @@ class RigidPhysics final : public Physics {
   std::vector<float> penetrations() const override { return find_penetrations(contacts_); }
   PhysicsInspection inspect() const override { return {broad_phase_.boxes(shapes_, bodies_)}; }
   std::vector<ContactForce> contact_forces() const override {
-    return find_contact_forces(contacts_, bodies_, last_h_s_);
+    return find_contact_forces(contacts_, bodies_, last_step_.h_s);
   }
   void visit_on_ray(const Vec3& from_W, const Vec3& direction_W, double reach_m, double radius_m,
                     ShapeVisitor& visitor) override;
@@ -120,7 +121,7 @@ class RigidPhysics final : public Physics {
   Paused paused_;
   StepContext step_;  ///< Context of the last collide().
   /// Length of the substep that the stored impulses are from; 0: no impulses stored.
-  double last_h_s_ = 0;
+  StepLengths last_step_;
   std::uint32_t frozen_ = 0;  ///< Number of bodies frozen since the last solve began.
   bool skipped_ = false;      ///< Contacts of dense clusters were left out since the last solve.
   ByBody<StepReach> reach_;
@@ -132,7 +133,7 @@ class RigidPhysics final : public Physics {
 void RigidPhysics::archive(Archive& bytes) {
   // The other members are found anew in every step.
   bytes(bodies_, shapes_, contacts_, joints_, broad_phase_, dense_clusters_, speculative_contacts_,
-        paused_, last_h_s_, frozen_, skipped_, reach_);
+        paused_, last_step_, frozen_, skipped_, reach_);
   if (!bytes.reads()) return;
   bytes.refuse_field<Shapes>(shapes_.wrong_field(bodies_));
   bytes.refuse_field<Contacts>(contacts_.wrong_field(bodies_, shapes_));
@@ -141,7 +142,9 @@ void RigidPhysics::archive(Archive& bytes) {
   bytes.refuse_field<SpeculativeContacts>(
       speculative_contacts_.wrong_field(contacts_, bodies_, shapes_));
   bytes.refuse_field<Paused>(paused_.wrong_field(bodies_));
-  if (!(last_h_s_ >= 0 && last_h_s_ <= 1)) bytes.refuse_field<RigidPhysics>("last_h_s_");
+  if (last_step_ != StepLengths{} &&
+      !(last_step_.h_s > 0 && last_step_.h_s <= last_step_.dt_s && last_step_.dt_s <= 1))
+    bytes.refuse_field<RigidPhysics>("last_step_");
   if (reach_.size() > bodies_.size()) bytes.refuse_field<RigidPhysics>("reach_");
   contacts_of_bodies_.clear();
   queries_valid_ = false;
@@ -420,7 +423,9 @@ void RigidPhysics::visit_in_box(const Box& box_W, ShapeVisitor& visitor) {
 SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   SUNDER_CHECK(dt_s > 0 && substeps > 0);
   queries_valid_ = false;
-  const StepContext step(options_.gravity_W, dt_s, substeps, last_h_s_);
+  const StepContext step(options_.gravity_W, dt_s, substeps);
+  const StepLengths lengths{dt_s, step.h_s};
+  change_step(std::exchange(last_step_, lengths), lengths, bodies_, contacts_, joints_);
   SolveReport report;
   freeze_broken();
   joints_.wake(bodies_);
@@ -438,7 +443,6 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   const ContactSolveReport solved = solve_contacts(step);
   for (const BodySlot body : bodies_.slots())
     if (bodies_.is_moving_kinematic(body)) move_kinematic(step, body, bodies_);
-  last_h_s_ = step.h_s;
   report.external_impulse_Ns = solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
   const Momentum end = bodies_.momentum();

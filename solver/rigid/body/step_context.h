@@ -12,8 +12,7 @@ namespace sunder::solver {
 /// Made once before a step and passed down. The number of substeps is known only for the solve;
 /// before that, values of a substep are those of a step of one substep.
 struct StepContext {
-  /// `last_h_s`: length of the substep that the stored impulses are from; 0: no impulses stored.
-  StepContext(const Vec3& gravity, double dt, int parts = 1, double last_h_s = 0)
+  StepContext(const Vec3& gravity, double dt, int parts = 1)
       : gravity_W(gravity),
         froude(gravity),
         dt_s(dt),
@@ -23,11 +22,7 @@ struct StepContext {
         gravity_dv_W((h_s * gravity).cast<float>()),
         fall_m_s(gravity.norm() * dt),
         fall_m(static_cast<float>(fall_m_s * dt)),
-        rest_speed_m_s(froude.rest_speed_m_s(dt)) {
-    const double scale = last_h_s > 0 ? h_s / last_h_s : 1;
-    impulse_scale = static_cast<float>(scale);
-    kept_scale = static_cast<float>(1 / scale);
-  }
+        rest_speed_m_s(froude.rest_speed_m_s(dt)) {}
 
   /// Time that a body must have been at rest to fall asleep, s.
   double rest_s(double reach_m) const {
@@ -38,14 +33,12 @@ struct StepContext {
   FroudeScale froude;
   double dt_s;
   int substeps;
-  double h_s;               ///< Length of a substep.
-  float inverse_h;          ///< 1/s.
-  Vec3f gravity_dv_W;       ///< Change of velocity by gravity in a substep.
-  double fall_m_s;          ///< Change of speed by gravity in the step.
-  float fall_m;             ///< Distance that gravity moves a body at rest in one step, g·dt².
-  double rest_speed_m_s;    ///< Closing speed below which a contact is at rest.
-  float impulse_scale = 1;  ///< Factor from stored impulses to those of a substep.
-  float kept_scale = 1;     ///< Factor from impulses of a substep to stored ones.
+  double h_s;             ///< Length of a substep.
+  float inverse_h;        ///< 1/s.
+  Vec3f gravity_dv_W;     ///< Change of velocity by gravity in a substep.
+  double fall_m_s;        ///< Change of speed by gravity in the step.
+  float fall_m;           ///< Distance that gravity moves a body at rest in one step, g·dt².
+  double rest_speed_m_s;  ///< Closing speed below which a contact is at rest.
 };
 
 }  // namespace sunder::solver

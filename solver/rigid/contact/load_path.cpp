@@ -68,8 +68,7 @@ void find_vertical_impulses(const Vec3f& up, const Vec3f& across_1, const Vec3f&
 }  // namespace
 
 void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
-                      float kept_scale, const Bodies& bodies, ByBody<BodyImpulse>& loads,
-                      Contacts& contacts) {
+                      const Bodies& bodies, ByBody<BodyImpulse>& loads, Contacts& contacts) {
   if (gravity_W.isZero(0)) return;
   const Vec3 up_W = -gravity_W.normalized();
   const Vec3f up = up_W.cast<float>();
@@ -98,7 +97,7 @@ void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manif
     find_vertical_impulses(up, across_1, across_2, weight, -loads[body].angular_impulse_W, shares);
     for (const Share& s : shares) {
       const float slope = std::abs(s.manifold->normal_W.dot(up));
-      s.manifold->points[s.point].impulse_Ns = kept_scale * s.vertical / slope;
+      s.manifold->points[s.point].impulse_Ns = s.vertical / slope;
       loads[s.below].impulse_W -= s.vertical * up;
       loads[s.below].angular_impulse_W -= s.arm_below.cross(s.vertical * up);
     }

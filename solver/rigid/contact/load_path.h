@@ -17,11 +17,10 @@ struct BodyImpulse {
   bool supported = false;  ///< True if supported by an immovable body, directly or through others.
 };
 
-/// Sets the impulses of the points of `manifolds` (times `kept_scale`) that pass `loads` down to
+/// Sets the impulses of the points of `manifolds` that pass `loads` down to
 /// immovable bodies. A body without support passes no load.
 void distribute_loads(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,
-                      float kept_scale, const Bodies& bodies, ByBody<BodyImpulse>& loads,
-                      Contacts& contacts);
+                      const Bodies& bodies, ByBody<BodyImpulse>& loads, Contacts& contacts);
 
 /// Marks bodies on an unsupported body as unsupported.
 void mark_unsupported_above(const Vec3& gravity_W, std::span<const ManifoldSlot> manifolds,

@@ -75,14 +75,14 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
                     ConstraintBlock<lanes>& c, GatheredBlock<lanes>& g) {
   set_lane(c.normal, lane, m.normal_W);
   set_lane(g.drift, lane, m.drift_W);
-  set_lane(g.friction_impulse, lane, step.context.impulse_scale * m.friction_impulse_W);
+  set_lane(g.friction_impulse, lane, m.friction_impulse_W);
   set_lane(g.friction_arm_a, lane, m.friction_arm_A);
   set_lane(g.friction_arm_b, lane, m.friction_arm_B);
-  if (m.count > 1) c.twist_impulse[lane] = step.context.impulse_scale * m.twist_impulse;
+  if (m.count > 1) c.twist_impulse[lane] = m.twist_impulse;
   c.friction[lane] = m.friction;
   c.roll.arm[lane] = m.rolling_m;
   c.rolls = c.rolls || m.rolling_m > 0;
-  set_lane(g.roll_impulse, lane, step.context.impulse_scale * m.roll_impulse_W);
+  set_lane(g.roll_impulse, lane, m.roll_impulse_W);
   c.rebound.restitution[lane] = m.restitution;
   c.bouncy = c.bouncy || m.restitution > 0;
   g.compliance_scale[lane] = m.compliance_scale;
@@ -99,7 +99,7 @@ void gather_contact(const ContactStep& step, const Manifold& m, std::uint32_t la
     set_lane(g.arm_a[i], lane, p.arm_A);
     set_lane(g.arm_b[i], lane, p.arm_B);
     c.point[i].separation[lane] = std::max(p.separation_m - p.rest_m, -most_overlap);
-    c.point[i].impulse[lane] = step.context.impulse_scale * p.impulse_Ns;
+    c.point[i].impulse[lane] = p.impulse_Ns;
   }
 }
 

@@ -92,11 +92,11 @@ float compression_m(const StaticBlock& c, std::uint32_t lane, std::size_t point,
 }
 
 /// Stores the impulses of the points, and the separations at which they have them.
-void store_points(const StaticBlock& c, std::uint32_t lane, float compliance_s, float kept_scale,
-                  float factor, Manifold& m) {
+void store_points(const StaticBlock& c, std::uint32_t lane, float compliance_s, float factor,
+                  Manifold& m) {
   float depth[4] = {}, deepest = 0;
   for (std::size_t i = 0; i < m.count; ++i) {
-    m.points[i].impulse_Ns = kept_scale * factor * c.point[i].impulse[lane];
+    m.points[i].impulse_Ns = factor * c.point[i].impulse[lane];
     depth[i] = factor * compression_m(c, lane, i, compliance_s);
     deepest = std::max(deepest, depth[i]);
   }
@@ -109,12 +109,12 @@ void store_points(const StaticBlock& c, std::uint32_t lane, float compliance_s, 
 }
 
 /// Stores the impulses of friction, and the drift of its anchors that they need.
-void store_friction(const StaticBlock& c, std::uint32_t lane, float compliance_s, float kept_scale,
-                    float factor, Manifold& m) {
+void store_friction(const StaticBlock& c, std::uint32_t lane, float compliance_s, float factor,
+                    Manifold& m) {
   const float s1 = factor * c.friction_impulse_1[lane], s2 = factor * c.friction_impulse_2[lane];
   const Vec3f t1 = lane_of(c.tangent_1, lane), t2 = lane_of(c.tangent_2, lane);
-  m.friction_impulse_W = kept_scale * (s1 * t1 + s2 * t2);
-  m.twist_impulse = kept_scale * factor * c.twist_impulse[lane];
+  m.friction_impulse_W = s1 * t1 + s2 * t2;
+  m.twist_impulse = factor * c.twist_impulse[lane];
   const float m11 = c.friction_mass_11[lane], m12 = c.friction_mass_12[lane],
               m22 = c.friction_mass_22[lane];
   const float det = m11 * m22 - m12 * m12;
@@ -141,7 +141,7 @@ void StaticWarmStart::apply(const StepContext& context, double factor, const Bod
   find_impulses(step, gravity_dv_m_s);
   find_supported(gravity_dv_m_s, bodies);
   mark_overloaded(context.gravity_W, step.soft, bodies, contacts);
-  store(step.soft, context.kept_scale, static_cast<float>(factor), bodies, contacts);
+  store(step.soft, static_cast<float>(factor), bodies, contacts);
 }
 
 bool StaticWarmStart::collect(const StepContext& step, const Bodies& bodies, Contacts& contacts) {
@@ -196,7 +196,6 @@ void StaticWarmStart::make_blocks(const Contacts& contacts) {
 void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
                             const Contacts& contacts) {
   const Vec3f& gravity_dv = step.gravity_dv_W;
-  const float scale = step.impulse_scale;
   rows_.resize(bodies.size() + 1);
   rows_[0] = BodyRow{};
   root_W_.resize(bodies.size());
@@ -226,10 +225,10 @@ void StaticWarmStart::begin(const StepContext& step, const Bodies& bodies,
     };
     for (std::size_t i = 0; i < m.count; ++i) {
       const ManifoldPoint& p = m.points[i];
-      apply(scale * p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
+      apply(p.impulse_Ns * m.normal_W, p.arm_A, p.arm_B);
     }
-    apply(scale * m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
-    const Vec3f angular = scale * m.twist_impulse * m.normal_W;
+    apply(m.friction_impulse_W, m.friction_arm_A, m.friction_arm_B);
+    const Vec3f angular = m.twist_impulse * m.normal_W;
     push(m.body_a, Vec3f::Zero(), -angular);
     push(m.body_b, Vec3f::Zero(), angular);
   }
@@ -248,7 +247,7 @@ void StaticWarmStart::estimate_impulses(const StepContext& step, const Bodies& b
     loads_[body].angular_impulse_W = root_W_[body].transpose().inverse() * spin;
     loads_[body].supported = velocity.dot(gravity_dv) < 0.5f * gravity_dv.squaredNorm();
   }
-  distribute_loads(step.gravity_W, manifolds_, step.kept_scale, bodies, loads_, contacts);
+  distribute_loads(step.gravity_W, manifolds_, bodies, loads_, contacts);
 }
 
 void StaticWarmStart::find_impulses(const ContactStep& step, double gravity_dv_m_s) {
@@ -340,15 +339,15 @@ void StaticWarmStart::mark_overloaded(const Vec3& gravity_W, const SoftStep& sof
   if (any) mark_unsupported_above(gravity_W, manifolds_, bodies, contacts, loads_);
 }
 
-void StaticWarmStart::store(const SoftStep& soft, float kept_scale, float factor,
-                            const Bodies& bodies, Contacts& contacts) const {
+void StaticWarmStart::store(const SoftStep& soft, float factor, const Bodies& bodies,
+                            Contacts& contacts) const {
   for (const StaticBlock& c : blocks_) {
     for (std::uint32_t lane = 0; lane < c.count; ++lane) {
       Manifold& m = contacts.manifolds[manifolds_[c.first + lane]];
       auto supported = [&](BodySlot body) { return !involved_[body] || loads_[body].supported; };
       const float part = supported(m.body_a) && supported(m.body_b) ? factor : 0;
-      store_points(c, lane, soft.of(c.points).normal.compliance_s, kept_scale, part, m);
-      store_friction(c, lane, soft.of(c.points).friction.compliance_s, kept_scale, part, m);
+      store_points(c, lane, soft.of(c.points).normal.compliance_s, part, m);
+      store_friction(c, lane, soft.of(c.points).friction.compliance_s, part, m);
       m.friction_anchor_B = bodies.rotation_f[m.body_b].transpose() * m.friction_arm_B;
     }
   }

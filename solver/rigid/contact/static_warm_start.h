@@ -46,8 +46,7 @@ class StaticWarmStart {
   std::size_t find_supported(double gravity_dv_m_s, const Bodies& bodies);
   void mark_overloaded(const Vec3& gravity_W, const SoftStep& soft, const Bodies& bodies,
                        const Contacts& contacts);
-  void store(const SoftStep& soft, float kept_scale, float factor, const Bodies& bodies,
-             Contacts& contacts) const;
+  void store(const SoftStep& soft, float factor, const Bodies& bodies, Contacts& contacts) const;
 
   std::vector<ManifoldSlot> manifolds_;  ///< By colour and number of points.
   std::vector<StaticBlock> blocks_;

@@ -218,11 +218,8 @@ void begin_group(JointGroup& group, std::span<JointWork> works, const StepContex
   fill(group, works);
 }
 
-void warm_start_group(std::span<JointWork> works, const StepContext& step, BodyRow* rows) {
-  for (JointWork& work : works) {
-    for (double& impulse : work.impulse) impulse *= double{step.impulse_scale};
-    work.apply(work.sum(work.impulse), rows);
-  }
+void warm_start_group(std::span<JointWork> works, BodyRow* rows) {
+  for (JointWork& work : works) work.apply(work.sum(work.impulse), rows);
 }
 
 void solve_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,

@@ -28,7 +28,7 @@ struct JointGroup {
 void begin_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  const BodyRow* rows);
 /// Applies the impulses of the last step.
-void warm_start_group(std::span<JointWork> works, const StepContext& step, BodyRow* rows);
+void warm_start_group(std::span<JointWork> works, BodyRow* rows);
 /// Solves the group once, with or without correction of errors.
 void solve_group(JointGroup& group, std::span<JointWork> works, const StepContext& step,
                  bool biased, BodyRow* rows);

@@ -28,8 +28,8 @@ class JointSolver {
   /// Work on group i; `rows` and `step_bodies` are those of the step.
   void begin(std::uint32_t i, const StepContext& step, const Bodies& bodies, const Joints& joints,
              const JointStep& step_bodies, const BodyRow* rows);
-  void warm_start(std::uint32_t i, const StepContext& step, BodyRow* rows) {
-    warm_start_group(works(groups_[i]), step, rows);
+  void warm_start(std::uint32_t i, const StepContext& /*step*/, BodyRow* rows) {
+    warm_start_group(works(groups_[i]), rows);
   }
   void solve_biased(std::uint32_t i, const StepContext& step, BodyRow* rows) {
     solve_group(groups_[i], works(groups_[i]), step, true, rows);
