@@ -25,6 +25,7 @@
 #include "solver/rigid/contact/contact_solver.h"
 #include "solver/rigid/contact/kept_impulses.h"
 #include "solver/rigid/contact/static_warm_start.h"
+#include "solver/rigid/impulse_reach.h"
 #include "solver/rigid/joint/joint.h"
 #include "solver/rigid/sleep.h"
 #include "solver/rigid/step_energy.h"
@@ -96,6 +97,7 @@ class RigidPhysics final : public Physics {
  private:
   void remove_bodies(std::span<const BodyId> ids);
   void remove_shapes(std::span<const ShapeSlot> shapes);
+  void wake_hit();
   void find_near();
   void update_contacts();
   void find_reaches();
@@ -237,9 +239,18 @@ void RigidPhysics::collide(double dt_s) {
   step_ = StepContext(options_.gravity_W, dt_s);
   find_near();
   update_contacts();
-  sleep_.wake_hit(step_, contacts_, bodies_);
-  sleep_.wake_on_kinematic(options_.gravity_W, contacts_, bodies_);
   contacts_of_bodies_.clear();
+  wake_hit();
+  sleep_.wake_on_kinematic(options_.gravity_W, contacts_, bodies_);
+}
+
+/// Wakes the sleeping bodies that impacts will move within the step.
+void RigidPhysics::wake_hit() {
+  const std::vector<Hit> hits = find_hits(step_, contacts_, bodies_);
+  if (hits.empty()) return;
+  for (const BodySlot body :
+       find_reached(step_, hits, contacts_, contacts_of_bodies(), joints_, bodies_))
+    bodies_.wake(body);
 }
 
 void RigidPhysics::find_near() {

@@ -162,31 +162,6 @@ double Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies
   return taken_J;
 }
 
-void Sleep::wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const {
-  const auto hit = [&](const Manifold& m) {
-    if (m.count == 0) return BodySlot();
-    const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
-    if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) return BodySlot();
-    const BodySlot body = a ? m.body_a : m.body_b;
-    const double hit_m_s = speed_m_s(kHitSpeed, step, bodies.reach_m[body]);
-    for (std::size_t i = 0; i < m.count; ++i) {
-      const ManifoldPoint& p = m.points[i];
-      const double speed = closing_speed(m, bodies, p.arm_A, p.arm_B);
-      if (speed >= hit_m_s && double{p.separation_m} <= step.dt_s * speed) return body;
-    }
-    return BodySlot();
-  };
-  constexpr std::size_t kChunk = 1024;
-  const std::size_t all = contacts.manifolds.size();
-  std::vector<std::vector<BodySlot>> woken((all + kChunk - 1) / kChunk);
-  for_chunks(all, kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
-    for (ManifoldSlot i(begin); i.value < end; ++i.value)
-      if (const BodySlot body = hit(contacts.manifolds[i]); !body.none()) woken[c].push_back(body);
-  });
-  for (const auto& chunk : woken)
-    for (const BodySlot body : chunk) bodies.wake(body);
-}
-
 void Sleep::wake_by_load(const StepContext& step, const Contacts& contacts, Bodies& bodies) {
   change_N_.assign(bodies.size(), 0);
   support_N_.assign(bodies.size(), 0);

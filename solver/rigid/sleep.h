@@ -24,8 +24,6 @@ class Sleep {
   /// recent change of load do not. Returns the kinetic energy that this removes, in J.
   double put_to_sleep(const StepContext& step, const Joints& joints, Bodies& bodies,
                       Contacts& contacts);
-  /// Wakes sleeping bodies that an awake body is about to hit.
-  void wake_hit(const StepContext& step, const Contacts& contacts, Bodies& bodies) const;
   /// Wakes sleeping bodies in contact with a moving kinematic body, and the bodies above them.
   void wake_on_kinematic(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies);
   /// Wakes sleeping bodies whose contact forces the last solve changed; if a body lost support,

@@ -144,6 +144,8 @@ inline constexpr double kMaxRestSpeed =
     0.25;  ///< Maximum speed of a body at rest, in speeds of falling.
 /// Closing speed from which a contact wakes a sleeping body, in speeds of falling.
 inline constexpr double kHitSpeed = kMaxRestSpeed / 3;
+/// Speed down to which an impact wakes bodies behind the one that it strikes, in speeds of falling.
+inline constexpr double kPassedSpeed = kHitSpeed / 8;
 /// Minimum time of rest before sleep, in times of falling: half a second for a piece of 35 cm.
 inline constexpr double kMinRestTime = 2.6;
 inline constexpr double kMinRestSteps = 20;  ///< Minimum time of rest before sleep, in steps.
