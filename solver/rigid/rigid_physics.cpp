@@ -20,6 +20,7 @@
 #include "solver/rigid/collide/dense_clusters.h"
 #include "solver/rigid/collide/narrow_phase.h"
 #include "solver/rigid/collide/query_tests.h"
+#include "solver/rigid/collide/seams.h"
 #include "solver/rigid/collide/speculative_contacts.h"
 #include "solver/rigid/contact/contact_reports.h"
 #include "solver/rigid/contact/contact_solver.h"
@@ -307,10 +308,13 @@ void RigidPhysics::update_contacts() {
       m.deep = m.count > 0 && m.least_separation() < -kDeepOverlap * m.size_m;
       if (m.deep) changes[c].deep.push_back(i);
       if (touched && (!near || m.count == 0)) changes[c].separated.push_back(i);
+      if (near && m.count > 0 && may_be_at_seam(step_, shapes_, bodies_, pair, m))
+        changes[c].closing.push_back(i);
       if (!touched && m.count > 0) changes[c].touched.emplace_back(i, std::exchange(fresh, {}));
       if (!near && !broad_phase_.is_near(pair)) changes[c].removed.push_back(i);
     }
   });
+  drop_covered(step_, changes, contacts_, shapes_, bodies_);
   skipped_ |= dense_clusters_.drop_contacts(changes, contacts_, bodies_);
   std::vector<ManifoldSlot> left;
   for (const ContactChanges& chunk : changes)

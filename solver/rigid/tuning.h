@@ -54,6 +54,14 @@ inline constexpr double kGuardedSpeed = 2 * kRestingSpeed;
 /// Minimum closing speed of an impact that is propagated (decision 036).
 inline constexpr double kMinImpactSpeed = 2 * kRestingSpeed;
 
+// Landings: contacts whose normal impulse has just begun.
+
+/// Closing speed below which a contact does not land; multiple of g·h, h being the substep.
+inline constexpr double kLandingSpeed = kReboundSpeed;
+/// Maximum number of times that a sweep solves a contact that lands. With fewer, a cube of 20 m/s
+/// that lands flat turns over.
+inline constexpr int kLandingRounds = 8;
+
 /// Motion of two bodies against each other in a step below which their contact is not tested again.
 inline constexpr float kStillMotion = 1e-6f;
 /// Motion in a step below which the lever arms of a contact are kept; for the check of all bodies,
@@ -123,6 +131,13 @@ inline constexpr float kPointMatchDistance = kCastingMotion;
 inline constexpr float kKeptPointMotion = 0.5f * kCastingMotion;
 /// Closing in a step below which a contact is no impact (decision 036).
 inline constexpr float kImpactMotion = 0.5f * kCastingMotion;
+
+// Seams between shapes that bear another together.
+
+/// Maximum step between two flush shapes.
+inline constexpr float kSeamTolerance = 0.01f;
+/// Cosine of the least angle between two faces that are not one surface: 2 degrees.
+inline constexpr float kSeamCosine = 0.9994f;
 
 // Dense clusters: many overlapping shapes (decision 020).
 

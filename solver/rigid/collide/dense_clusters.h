@@ -17,12 +17,14 @@ namespace sunder::solver {
 struct ContactChanges {
   std::vector<std::pair<PairSlot, Manifold>> touched;
   std::vector<PairSlot> separated, removed;
-  std::vector<PairSlot> deep;  ///< Pairs with a deep contact.
+  std::vector<PairSlot> deep;     ///< Pairs with a deep contact.
+  std::vector<PairSlot> closing;  ///< Pairs whose contact may be at a seam: see seams.h.
   /// Number of pairs with a body that moved, and of pairs tested.
   std::uint64_t moved = 0, tested = 0;
 
   void clear() {
     touched.clear(), separated.clear(), removed.clear(), deep.clear();
+    closing.clear();
     moved = tested = 0;
   }
 };
