@@ -74,5 +74,51 @@ TEST(Coulomb, limits_the_friction_of_the_ground_on_a_wall_that_is_struck) {
   }
 }
 
+/// A box that falls flat.
+struct Landing {
+  const char* name;
+  Vec3 size_m;
+  double down_m_s;  ///< Speed at the start of the fall.
+};
+constexpr double kLandingFriction = 0.5;
+
+/// Returns the error of the distance that a box slides after it lands, over the error allowed. By
+/// Coulomb's law, a landing takes friction times the closing speed from the speed along the ground.
+double landing_error(const Preset& preset, const Landing& landing, double angle_deg, double phase) {
+  const double along_m_s = landing.down_m_s / std::tan(angle_deg * kPi / 180);
+  const double gap_m = landing.down_m_s * preset.dt_s * (1.5 + phase);
+  PresetWorld world(preset);
+  world.add(RigidWorld::with_friction(RigidWorld::ground(), kLandingFriction));
+  const BodyDesc box =
+      RigidWorld::box(landing.size_m, Vec3(0, 0.5 * landing.size_m.y() + gap_m, 0), 2000);
+  const BodyId id = world.add(RigidWorld::moving(RigidWorld::with_friction(box, kLandingFriction),
+                                                 Vec3(along_m_s, -landing.down_m_s, 0)));
+  const double closing_m_s = std::sqrt(landing.down_m_s * landing.down_m_s + 2 * kG * gap_m);
+  const double fall_s = (closing_m_s - landing.down_m_s) / kG;
+  const double left_m_s = std::max(0.0, along_m_s - kLandingFriction * closing_m_s);
+  const double brake_m_s2 = kLandingFriction * kG;
+  world.run(fall_s + left_m_s / brake_m_s2 + 0.3);
+  const double slid_m = world.state(id).X_WB.position.x() - along_m_s * fall_s;
+  const double theory_m = left_m_s * left_m_s / (2 * brake_m_s2);
+  // The box is braked up to two substeps late, and may tilt.
+  const double late_m = 2 * along_m_s * preset.dt_s / preset.substeps + 0.007 * landing.size_m.y();
+  const double frictionless_m = along_m_s * along_m_s / (2 * brake_m_s2);
+  return std::abs(slid_m - theory_m) / (0.05 * theory_m + 0.01 * frictionless_m + late_m);
+}
+
+TEST(Coulomb, brakes_a_box_in_the_instant_of_its_landing) {
+  const Landing landings[] = {{"slab", Vec3(1.5, 0.3, 1.5), 6},
+                              {"slow plate", Vec3(0.5, 0.2, 0.4), 1},
+                              {"cube", Vec3(0.5, 0.5, 0.5), 3},
+                              {"fast sheet", Vec3(0.4, 0.04, 0.4), 20}};
+  for (const Preset& preset : kPresets)
+    for (const Landing& landing : landings)
+      for (const double angle_deg : {10., 20., 30., 40., 50., 60., 70., 80.})
+        for (const double phase : {0.1, 0.6})
+          EXPECT_LT(landing_error(preset, landing, angle_deg, phase), 1)
+              << preset.name << ": " << landing.name << " at " << angle_deg << " degrees, phase "
+              << phase;
+}
+
 }  // namespace
 }  // namespace sunder::solver

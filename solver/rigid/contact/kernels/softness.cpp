@@ -25,6 +25,7 @@ SoftStep soft_step(const StepContext& step) {
   soft.face = {softness(kFaceStiffness, step.h_s), softness(0.5 * kPointStiffness, step.h_s)};
   soft.inverse_h = step.inverse_h;
   soft.push = static_cast<float>(kMaxPushSpeed * step.froude.speed_m_s(1));
+  soft.landing_m_s = static_cast<float>(kLandingSpeed * step.fall_m_s / step.substeps);
   return soft;
 }
 

@@ -30,6 +30,7 @@ struct SoftStep {
   float omega = 1;       ///< Relaxation factor of a sweep.
   /// Maximum speed of correction over the root of the smaller shape's inner radius, √(m)/s.
   float push = 0;
+  float landing_m_s = 0;  ///< Minimum closing speed of a landing.
 
   const ContactSoftness& of(std::uint32_t points) const { return points > 2 ? face : edge; }
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "solver/rigid/contact/kernels/sweep.h"
+#include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
 
@@ -264,27 +265,13 @@ SUNDER_INLINE void clamp_friction(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit
   c.friction_impulse_1 *= scale, c.friction_impulse_2 *= scale;
 }
 
+/// Solves friction, and what limits rotation by it.
 template <bool kBiased, bool kSplit, std::uint32_t lanes>
-SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
-                         const SoftStep& soft) {
-  Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
-  const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
+SUNDER_INLINE void solve_tangents(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                                  const Pairs<lanes, kSplit>& x, const SoftStep& soft) {
   solve_friction<kBiased>(c, v, x, soft);
   if (c.points > 1) solve_twist(c, v);
   if (c.rolls) solve_rolling(c, v);
-  solve_normal<kBiased>(c, v, x, soft);
-  if constexpr (!kBiased) clamp_friction(c, v);
-  store(c, v, bodies);
-}
-
-template <std::uint32_t lanes>
-void sweep_biased(ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft) {
-  c.split ? sweep<true, true>(c, bodies, soft) : sweep<true, false>(c, bodies, soft);
-}
-
-template <std::uint32_t lanes>
-void sweep_relaxed(ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft) {
-  c.split ? sweep<false, true>(c, bodies, soft) : sweep<false, false>(c, bodies, soft);
 }
 
 /// Calls visit(slot, impulse) for each impulse of a block, those of rolling last.
@@ -296,6 +283,95 @@ SUNDER_INLINE void for_all_impulses(ConstraintBlock<lanes>& c, const Visit& visi
   visit(6, c.twist_impulse);
   visit(7, c.roll.impulse_1);
   visit(8, c.roll.impulse_2);
+}
+
+/// Velocities and impulses of a block.
+template <std::uint32_t lanes, bool kSplit>
+struct ContactState {
+  using V = WideOf<lanes>;
+  Pairs<lanes, kSplit> velocities;
+  V impulse[9];
+
+  SUNDER_INLINE ContactState(ConstraintBlock<lanes>& c, const Pairs<lanes, kSplit>& v)
+      : velocities(v) {
+    for_all_impulses(c, [&](std::uint32_t slot, const V& now) { impulse[slot] = now; });
+  }
+  /// Restores the lanes in which `changes` is 0.
+  SUNDER_INLINE void restore_unless(const V& changes, ConstraintBlock<lanes>& c,
+                                    Pairs<lanes, kSplit>& v) const {
+    const auto select = [&](V& to, const V& was) { to = changes > V{} ? to : was; };
+    const auto select_3 = [&](Triple<V>& to, const Triple<V>& was) {
+      select(to.x, was.x), select(to.y, was.y), select(to.z, was.z);
+    };
+    for_all_impulses(c, [&](std::uint32_t slot, V& to) { select(to, impulse[slot]); });
+    select_3(v.a.linear, velocities.a.linear), select_3(v.a.angular, velocities.a.angular);
+    select_3(v.b.linear, velocities.b.linear), select_3(v.b.angular, velocities.b.angular);
+  }
+};
+
+/// Returns 1 for lanes in which a sweep has changed the speed of the bodies by more than it does in
+/// a contact at rest; `before` is the normal impulse before the sweep.
+template <std::uint32_t lanes>
+SUNDER_INLINE WideOf<lanes> find_landings(const ConstraintBlock<lanes>& c,
+                                          const WideOf<lanes>& before, const SoftStep& soft) {
+  using V = WideOf<lanes>;
+  const V gained = total_impulse(c) - before;
+  return gained * (c.inverse_mass_a + c.inverse_mass_b) > splat<V>(soft.landing_m_s) ? splat<V>(1)
+                                                                                     : V{};
+}
+
+/// Solves the lanes in which `lands` is 1 again until their points no longer close: friction did
+/// not know its limit before, and the friction of a landing tilts a body onto some of its points.
+template <bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void solve_landings(ConstraintBlock<lanes>& c, Pairs<lanes, kSplit>& v,
+                                  const Pairs<lanes, kSplit>& x, const SoftStep& soft,
+                                  WideOf<lanes> lands) {
+  using V = WideOf<lanes>;
+  for (int round = 0; round < kLandingRounds && any(lands > V{}); ++round) {
+    const ContactState<lanes, kSplit> was(c, v);
+    solve_normal<false>(c, v, x, soft);
+    solve_tangents<false>(c, v, x, soft);
+    was.restore_unless(lands, c, v);
+    V changed = {};
+    for (std::uint32_t i = 0; i < c.points; ++i) {
+      const V change = c.point[i].impulse - was.impulse[i];
+      const auto much = max(change, -change) > splat<V>(soft.landing_m_s) * c.point[i].mass;
+      changed = much ? splat<V>(1) : changed;
+    }
+    lands = changed;
+  }
+}
+
+template <bool kBiased, bool kSplit, std::uint32_t lanes>
+SUNDER_INLINE void sweep(ConstraintBlock<lanes>& c, const SolverRows& bodies,
+                         const SoftStep& soft) {
+  Pairs<lanes, kSplit> v(c, bodies, &BodyRow::velocity);
+  const Pairs<lanes, kSplit> x(c, bodies, &BodyRow::position);
+  const WideOf<lanes> before = total_impulse(c);
+  solve_tangents<kBiased>(c, v, x, soft);
+  solve_normal<kBiased>(c, v, x, soft);
+  const WideOf<lanes> lands = find_landings(c, before, soft);
+  if constexpr (kBiased) {
+    if (any(lands > WideOf<lanes>{})) {
+      const ContactState<lanes, kSplit> was(c, v);
+      solve_tangents<true>(c, v, x, soft);
+      was.restore_unless(lands, c, v);
+    }
+  } else {
+    solve_landings(c, v, x, soft, lands);
+    clamp_friction(c, v);
+  }
+  store(c, v, bodies);
+}
+
+template <std::uint32_t lanes>
+void sweep_biased(ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft) {
+  c.split ? sweep<true, true>(c, bodies, soft) : sweep<true, false>(c, bodies, soft);
+}
+
+template <std::uint32_t lanes>
+void sweep_relaxed(ConstraintBlock<lanes>& c, const SolverRows& bodies, const SoftStep& soft) {
+  c.split ? sweep<false, true>(c, bodies, soft) : sweep<false, false>(c, bodies, soft);
 }
 
 /// Returns the scale of the impulses on a lane's bodies.
