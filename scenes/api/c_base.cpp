@@ -198,7 +198,7 @@ namespace {
 struct OwnMaterials {
   struct Known {
     MaterialIndex index;
-    std::string name;
+    Material material;
   };
   std::mutex mutex;
   std::vector<Known> known;                 ///< By handle, from kFirstOwn on.
@@ -231,7 +231,7 @@ SunderMaterial handle_of(std::uint32_t index, Material material) {
   const std::lock_guard lock(all.mutex);
   const auto [found, is_new] = all.find.try_emplace(
       std::string(reinterpret_cast<const char*>(key.data()), key.size()), all.known.size());
-  if (is_new) all.known.push_back({MaterialIndex(std::size_t{index}), material.name});
+  if (is_new) all.known.push_back({MaterialIndex(std::size_t{index}), std::move(material)});
   return {kFirstOwn + count_of(found->second)};
 }
 
@@ -250,9 +250,14 @@ MaterialIndex index_in(WorldEntry& entry, SunderMaterial material, const std::st
   const MaterialIndex index = own ? own->index : MaterialIndex(std::size_t{material.index});
   if (!index.none() && material_of(entry, index).index == material.index) return index;
   refuse(name + " has material " + std::to_string(material.index) +
-         (own ? ", a material " + own->name + " of another world" : ", which is none") +
+         (own ? ", a material " + own->material.name + " of another world" : ", which is none") +
          "; expected a material of this world, from sunder_world_material() or "
          "sunder_world_add_material()");
+}
+
+Material values_of(WorldEntry& entry, SunderMaterial material, const std::string& name) {
+  if (std::optional<OwnMaterials::Known> known = find_own(material)) return known->material;
+  return entry.world.materials()[index_in(entry, material, name).value];
 }
 
 MaterialIndex index_of(SunderMaterial material, const std::string& name,

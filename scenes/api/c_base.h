@@ -189,6 +189,8 @@ using AssetPtr = std::shared_ptr<AssetEntry>;
 SunderMaterial material_of(WorldEntry& entry, MaterialIndex index);
 /// Returns the index of a material of a world. Refuses a handle that is none of this world.
 MaterialIndex index_in(WorldEntry& entry, SunderMaterial material, const std::string& name);
+/// Returns the values of a material of any world, or of a built-in one as this world has it.
+Material values_of(WorldEntry& entry, SunderMaterial material, const std::string& name);
 /// Returns the index for which a handle stands in the worlds that have the material, which is added
 /// to `own` if it is not built in. Refuses a handle that stands for nothing.
 MaterialIndex index_of(SunderMaterial material, const std::string& name,

@@ -320,7 +320,7 @@ SunderResult sunder_world_add_material(SunderWorld world, const SunderMaterialDe
   return change_world("sunder_world_add_material", world, [&](WorldEntry& entry) {
     need_def(def, kMaterialCookie, "def", "sunder_world_material_def");
     need_pointer(material, "material");
-    const Material added = material_from(material_at(entry, def->base, "def.base"), *def);
+    const Material added = material_from(values_of(entry, def->base, "def.base"), *def);
     *material = material_of(entry, entry.world.add(added));
   });
 }

@@ -107,10 +107,11 @@ TEST(SceneCheck, NamesWhatIsWrong) {
       {"limits.bodies is 0", [](Scene& s) { s.limits.bodies = 0; }},
       {"limits.piece_size_factor is -1", [](Scene& s) { s.limits.piece_size_factor = -1; }},
       {"limits.piece_size_factor is nan", [](Scene& s) { s.limits.piece_size_factor = kNaN; }},
-      {"limits.piece_size_factor is 1000, so that all pieces of the largest solid would be debris; "
-       "expected at most 100",
+      {"limits.piece_size_factor is 50, so that all pieces of the largest solid would be debris; "
+       "expected at most 10",
        [](Scene& s) {
-         s.limits.piece_size_factor = 1000;
+         s.limits.piece_size_factor = 50;
+         s.materials[0].smallest_piece_m3 = 1e-3;
          s.materials[0].pattern.kind = PatternSpec::Kind::kVoronoi;
        }},
       {"limits.chip_size_factor is 0.5", [](Scene& s) { s.limits.chip_size_factor = 0.5; }},
