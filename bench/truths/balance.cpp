@@ -56,7 +56,7 @@ Truths balance_truths() {
       truth(11, "arch of 11: least thickness", "", heyman, 0.015, thinnest_arch(11, 0.10491),
             {0.0032, 0.0032, 0.0032, 0.0032}),
       truth(11, "arch of 21: least thickness", "", heyman, 0.015, thinnest_arch(21, 0.10679),
-            {0.03, 0.03, 0.015, 0.0056}),
+            {0.05, 0.05, 0.015, 0.0056}),
   };
 }
 

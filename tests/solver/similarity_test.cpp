@@ -142,7 +142,7 @@ Scene debris() {
 
 /// A ball strikes a wall that sleeps.
 Scene wall() {
-  Scene scene{"wall that is hit", {W::ground()}, {}, 2.5, true};
+  Scene scene{"wall that is hit", {W::ground()}, {}, 4, true};
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 5; ++column)
       scene.bodies.push_back(W::box(
