@@ -106,7 +106,7 @@ class Reach {
         visit(slot, m, on_b ? m.body_b : m.body_a, on_b, on_b ? 1. : -1.);
       }
     };
-    // What cannot move bears what is pressed on it.
+    // An immovable body bears what is pressed on it.
     each([&](ManifoldSlot, const Manifold& m, BodySlot other, bool, double sign) {
       if (bodies_.dynamic(other)) return;
       const Vec3 normal = sign * m.normal_W.cast<double>();

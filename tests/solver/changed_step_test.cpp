@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/planar/planar_physics.h"
+#include "tests/fixtures/piles.h"
 #include "tests/fixtures/presets.h"
 #include "tests/solver/chains.h"
 
@@ -77,13 +78,8 @@ std::vector<BodyId> add_on_slope(RigidWorld& world) {
 /// A pile that was dropped: its contacts bear their loads by overlaps.
 std::vector<BodyId> add_pile(RigidWorld& world) {
   world.add(W::ground());
-  Random random(3);
   std::vector<BodyId> pile;
-  for (int i = 0; i < 40; ++i) {
-    const Vec3 at(0.35 * (i % 3) + random.uniform(0, 0.05), 0.3 + 0.35 * (i / 9),
-                  0.35 * (i / 3 % 3) + random.uniform(0, 0.05));
-    pile.push_back(add(world, W::box(random.uniform(0.15, 0.3) * Vec3(1, 1.3, 0.8), at, 2000)));
-  }
+  for (const BodyDesc& box : boxes_of({40, 3, 0.35, 0.15, 3})) pile.push_back(add(world, box));
   return pile;
 }
 
@@ -147,23 +143,32 @@ void fall_asleep(RigidWorld& world, const std::vector<BodyId>& bodies) {
   ASSERT_TRUE(all_asleep(world, bodies));
 }
 
-TEST(ChangedStep, LeavesTheForcesOfSleepingBodiesAsTheyAre) {
+/// Calls visit(case, world, bodies, step) for each case, asleep, and each step that follows.
+template <class Visit>
+void for_all_asleep(const Visit& visit) {
   for (const Case& of : cases()) {
     for (const StepOf& after : kAfter) {
       SCOPED_TRACE(of.name + ", dt 1/" + std::to_string(1 / after.dt_s));
       RigidWorld world;
       const std::vector<BodyId> bodies = of.add(world);
       fall_asleep(world, bodies);
-      const Forces before = forces(world, kBefore.dt_s);
-      ASSERT_FALSE(before.by_contact.empty() && before.by_joint.empty());
-      world.step(after.dt_s, after.substeps);
-      world.step(after.dt_s, after.substeps);
-      const Forces now = forces(world, after.dt_s);
-      expect_equal(before.by_contact, now.by_contact);
-      expect_equal(before.by_contact_step, now.by_contact_step);
-      expect_equal(before.by_joint, now.by_joint);
+      visit(of, world, bodies, after);
     }
   }
+}
+
+TEST(ChangedStep, LeavesTheForcesOfSleepingBodiesAsTheyAre) {
+  for_all_asleep([](const Case& of, RigidWorld& world, const std::vector<BodyId>& bodies,
+                    const StepOf& after) {
+    const Forces before = forces(world, kBefore.dt_s);
+    ASSERT_FALSE(before.by_contact.empty() && before.by_joint.empty());
+    world.step(after.dt_s, after.substeps);
+    world.step(after.dt_s, after.substeps);
+    const Forces now = forces(world, after.dt_s);
+    expect_equal(before.by_contact, now.by_contact);
+    expect_equal(before.by_contact_step, now.by_contact_step);
+    expect_equal(before.by_joint, now.by_joint);
+  });
 }
 
 /// Returns the force on the ground and in joints to the world, upwards.
@@ -175,29 +180,24 @@ double support_N(RigidWorld& world) {
 }
 
 TEST(ChangedStep, MovesNoBodyThatWakesLater) {
-  for (const Case& of : cases()) {
-    for (const StepOf& after : kAfter) {
-      SCOPED_TRACE(of.name + ", dt 1/" + std::to_string(1 / after.dt_s));
-      RigidWorld world;
-      const std::vector<BodyId> bodies = of.add(world);
-      fall_asleep(world, bodies);
-      std::vector<Vec3> places;
-      for (const BodyId id : bodies) places.push_back(world.state(id).X_WB.position);
-      const double bears_N = support_N(world);
-      world.run(10 * after.dt_s, after.dt_s, after.substeps);
-      for (const BodyId id : bodies)
-        world.physics().apply_impulse(id, Vec3::Zero(), world.state(id).X_WB.position);
-      const int steps = static_cast<int>(0.25 / after.dt_s);
-      for (int i = 0; i < steps; ++i) {
-        world.step(after.dt_s, after.substeps);
-        if (of.name != "cantilever") {
-          EXPECT_NEAR(support_N(world), bears_N, of.force * bears_N) << i;
-        }
+  for_all_asleep([](const Case& of, RigidWorld& world, const std::vector<BodyId>& bodies,
+                    const StepOf& after) {
+    std::vector<Vec3> places;
+    for (const BodyId id : bodies) places.push_back(world.state(id).X_WB.position);
+    const double bears_N = support_N(world);
+    world.run(10 * after.dt_s, after.dt_s, after.substeps);
+    for (const BodyId id : bodies)
+      world.physics().apply_impulse(id, Vec3::Zero(), world.state(id).X_WB.position);
+    const int steps = static_cast<int>(0.25 / after.dt_s);
+    for (int i = 0; i < steps; ++i) {
+      world.step(after.dt_s, after.substeps);
+      if (of.name != "cantilever") {
+        EXPECT_NEAR(support_N(world), bears_N, of.force * bears_N) << i;
       }
-      for (std::size_t i = 0; i < bodies.size(); ++i)
-        EXPECT_LT((world.state(bodies[i]).X_WB.position - places[i]).norm(), of.place_m) << i;
     }
-  }
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      EXPECT_LT((world.state(bodies[i]).X_WB.position - places[i]).norm(), of.place_m) << i;
+  });
 }
 
 TEST(ChangedStep, LeavesTheForcesOfSleepingPlanarBodiesAsTheyAre) {

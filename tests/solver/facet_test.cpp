@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/parallel.h"
 #include "engine/model/facets.h"
 #include "tests/fixtures/rigid_world.h"
+#include "tests/fixtures/threads.h"
 
 namespace sunder::solver::facet_test {
 namespace {
@@ -333,8 +333,7 @@ TEST(Facets, BodiesDroppedOnBumpyGroundStayAboveIt) {
 
 TEST(Facets, GiveTheSameBitsForAnyNumberOfThreads) {
   const GroundMesh mesh = make_surface(16, 0.5, bumpy);
-  const auto run = [&](int count) {
-    set_threads(count);
+  expect_same_for_any_threads([&] {
     RigidWorld world;
     add_surface(world, mesh);
     for (int i = 0; i < 30; ++i)
@@ -342,11 +341,7 @@ TEST(Facets, GiveTheSameBitsForAnyNumberOfThreads) {
           W::box(Vec3(0.3, 0.2, 0.4), Vec3(0.3 * (i % 6) - 1, 2 + 0.3 * (i / 6), 0.1 * i - 1)));
     world.run(1, kDt_s, kSubsteps);
     return world.hash();
-  };
-  const int before = threads();
-  const std::uint64_t one = run(1), three = run(3);
-  set_threads(before);
-  EXPECT_EQ(one, three);
+  });
 }
 
 }  // namespace

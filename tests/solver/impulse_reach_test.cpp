@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/fixtures/piles.h"
 #include "tests/fixtures/presets.h"
 
 namespace sunder::solver::impulse_reach_test {
@@ -21,7 +22,7 @@ RigidOptions options_of(const Preset& preset, bool sleeping) {
   return options;
 }
 
-/// What strikes bodies at rest.
+/// A ball that strikes bodies at rest.
 struct Striker {
   double radius_m, density_kg_m3, speed_m_s;
 };
@@ -35,8 +36,8 @@ struct Outcome {
 
 using AddBodies = std::function<std::vector<BodyId>(RigidWorld&)>;
 
-/// Lets bodies come to rest, and strikes them along x at a height. Returns what is left after
-/// `time_s`.
+/// Returns momentum and energy of a world `time_s` after a ball that flies along x from `from_W`
+/// was added to bodies that had come to rest.
 Outcome strike(const Preset& preset, bool sleeping, const AddBodies& add, const Striker& striker,
                const Vec3& from_W, double time_s) {
   RigidWorld world(options_of(preset, sleeping));
@@ -160,13 +161,8 @@ TEST(ImpulseReach, AnImpactPassesThroughJointsToWhatTheBodiesBehindThemTouch) {
 TEST(ImpulseReach, APebbleWakesNoPile) {
   RigidWorld world;
   world.add(W::ground());
-  Random random(4);
   std::vector<BodyId> pile;
-  for (int i = 0; i < 150; ++i) {
-    const Vec3 at(0.4 * (i % 5) + random.uniform(0, 0.05), 0.3 + 0.4 * (i / 25),
-                  0.4 * (i / 5 % 5) + random.uniform(0, 0.05));
-    pile.push_back(world.add(W::box(random.uniform(0.15, 0.3) * Vec3(1, 1.3, 0.8), at, 2000)));
-  }
+  for (const BodyDesc& box : boxes_of({150, 5, 0.4, 0.15, 4})) pile.push_back(world.add(box));
   const Preset& preset = kPresets[1];
   world.run(10, preset.dt_s, preset.substeps);
   const auto awake = [&] {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/parallel.h"
 #include "engine/model/facets.h"
 #include "tests/fixtures/presets.h"
+#include "tests/fixtures/threads.h"
 
 namespace sunder::solver {
 namespace {
@@ -191,8 +191,7 @@ TEST(Seams, AGapOfTheGroundStopsABallThatFallsIntoIt) {
 }
 
 TEST(Seams, GiveTheSameBitsForAnyNumberOfThreads) {
-  const auto run = [](int count) {
-    set_threads(count);
+  expect_same_for_any_threads([&] {
     PresetWorld world(kPresets[1]);
     add_compound(world, 0.4);
     for (int i = 0; i < 24; ++i)
@@ -200,11 +199,7 @@ TEST(Seams, GiveTheSameBitsForAnyNumberOfThreads) {
                           Vec3(3, 0, 1 - 0.5 * (i % 4))));
     world.run(1);
     return world.hash();
-  };
-  const int before = threads();
-  const std::uint64_t one = run(1), three = run(3);
-  set_threads(before);
-  EXPECT_EQ(one, three);
+  });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/parallel.h"
+#include "tests/fixtures/piles.h"
 #include "tests/fixtures/rigid_world.h"
 
 namespace sunder::solver::sleep_test {
@@ -55,13 +56,8 @@ TEST(Sleep, BodiesAtRestSleepBesideMovingOnes) {
 TEST(Sleep, NothingWakesDuringTenSecondsOfRest) {
   RigidWorld world;
   world.add(W::ground());
-  Random random(5);
   std::vector<BodyId> pile;
-  for (int i = 0; i < 150; ++i) {
-    const Vec3 at(0.4 * (i % 5) + random.uniform(0, 0.05), 0.3 + 0.4 * (i / 25),
-                  0.4 * (i / 5 % 5) + random.uniform(0, 0.05));
-    pile.push_back(world.add(W::box(random.uniform(0.1, 0.3) * Vec3(1, 1.3, 0.8), at, 2000)));
-  }
+  for (const BodyDesc& box : boxes_of({150, 5, 0.4, 0.1, 5})) pile.push_back(world.add(box));
   world.run(10, kDt_s, kSubsteps);
   std::size_t before = asleep(world, pile), wakes = 0;
   EXPECT_GT(before, pile.size() * 9 / 10);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "engine/base/parallel.h"

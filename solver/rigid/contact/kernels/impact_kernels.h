@@ -206,9 +206,7 @@ template <std::uint32_t lanes, std::uint32_t most>
   V was[9];
   for_all_impulses(c, [&](std::uint32_t slot, const V& impulse) { was[slot] = impulse; });
   Pairs<lanes, false> v(c, bodies, &BodyRow::velocity);
-  solve_friction<false>(c, v, v, soft);
-  if (c.points > 1) solve_twist(c, v);
-  if (c.rolls) solve_rolling(c, v);
+  solve_tangents<false>(c, v, v, soft);
   const V fastest = solve_normal_of_impact(c, v, impact, soft.omega);
   store(c, v, bodies);
   for_impulse_rows(c, c.rolls, [&](std::uint32_t row, auto&... of) { rows.put(row, of...); });
