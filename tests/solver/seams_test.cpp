@@ -148,7 +148,9 @@ TEST(Seams, WhatSlidesOrRollsOverThemGoesAsFarAsOnOneShape) {
           EXPECT_NEAR(over.way_m.x(), on.way_m.x(), error_m) << text;
           EXPECT_LT(std::abs(over.way_m.z()), error_m) << text;
           EXPECT_LT(over.highest_m, on.highest_m + 0.01 * slider.size_m) << text;
-          if (!slider.ball) EXPECT_LT(over.turned, on.turned + 1e-3) << text;
+          if (!slider.ball) {
+            EXPECT_LT(over.turned, on.turned + 1e-3) << text;
+          }
         }
       }
     }
