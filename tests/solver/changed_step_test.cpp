@@ -158,17 +158,17 @@ void for_all_asleep(const Visit& visit) {
 }
 
 TEST(ChangedStep, LeavesTheForcesOfSleepingBodiesAsTheyAre) {
-  for_all_asleep([](const Case& of, RigidWorld& world, const std::vector<BodyId>& bodies,
-                    const StepOf& after) {
-    const Forces before = forces(world, kBefore.dt_s);
-    ASSERT_FALSE(before.by_contact.empty() && before.by_joint.empty());
-    world.step(after.dt_s, after.substeps);
-    world.step(after.dt_s, after.substeps);
-    const Forces now = forces(world, after.dt_s);
-    expect_equal(before.by_contact, now.by_contact);
-    expect_equal(before.by_contact_step, now.by_contact_step);
-    expect_equal(before.by_joint, now.by_joint);
-  });
+  for_all_asleep(
+      [](const Case&, RigidWorld& world, const std::vector<BodyId>&, const StepOf& after) {
+        const Forces before = forces(world, kBefore.dt_s);
+        ASSERT_FALSE(before.by_contact.empty() && before.by_joint.empty());
+        world.step(after.dt_s, after.substeps);
+        world.step(after.dt_s, after.substeps);
+        const Forces now = forces(world, after.dt_s);
+        expect_equal(before.by_contact, now.by_contact);
+        expect_equal(before.by_contact_step, now.by_contact_step);
+        expect_equal(before.by_joint, now.by_joint);
+      });
 }
 
 /// Returns the force on the ground and in joints to the world, upwards.
