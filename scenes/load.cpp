@@ -258,14 +258,11 @@ std::vector<Piece> mirrored_pieces(std::vector<Piece> pieces) {
 /// Anchors pieces to the world as the key `anchored` says.
 void anchor(std::vector<Piece>& pieces, Anchored how, const Value& table,
             std::span<const Material> materials) {
-  if (how == Anchored::kBottom) {
+  if (how == Anchored::kOwn) return;
+  for (Piece& piece : pieces)
+    for (Part& part : piece.parts) part.anchored = how == Anchored::kAll ? kAnchoredAllSides : 0;
+  if (how == Anchored::kBottom)
     add_foundation(pieces, find_material("foundation", table.where, materials), materials);
-  }
-  for (Piece& piece : pieces) {
-    for (Part& part : piece.parts) {
-      if (how == Anchored::kAll) part.anchored = kAnchoredAllSides;
-    }
-  }
 }
 
 void Loader::add_solid(const Value& table) {

@@ -15,7 +15,7 @@ constexpr std::string_view kPatterns[] = {"none",  "voronoi", "web",  "radial",
 constexpr std::string_view kTextures[] = {"plain", "brick", "concrete", "plaster",
                                           "wood",  "glass", "metal"};
 constexpr std::string_view kBursts[] = {"ground", "air"};
-constexpr std::string_view kAnchored[] = {"none", "bottom", "all"};
+constexpr std::string_view kAnchored[] = {"none", "bottom", "all", "own"};
 
 Keys<Scene> top_keys() {
   return {"the scene file",
@@ -179,7 +179,8 @@ Keys<SolidHead> solid_keys() {
            choice<&SolidHead::anchored>(
                "anchored", kAnchored,
                "bottom: the lowest parts are fixed to the world from below; all: all parts are "
-               "fixed on all sides; none: the solid is free.")}};
+               "fixed on all sides; none: the solid is free; own: as the structure is built, which "
+               "stands on anchored feet or is free.")}};
 }
 
 Keys<ShotTable> shot_keys() {
@@ -445,7 +446,7 @@ std::span<const Preset> presets() {
   return kPresets;
 }
 
-std::span<const std::string_view> anchored_names() { return kAnchored; }
+std::span<const std::string_view> anchored_names() { return std::span(kAnchored).first(3); }
 
 const Schema& schema() {
   static const Schema kSchema = make_schema();

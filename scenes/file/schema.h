@@ -38,8 +38,9 @@ struct MaterialHead {
   std::string like;
 };
 
-enum class Anchored { kNone, kBottom, kAll };
-/// Returns the names of the values of Anchored, in order.
+enum class Anchored { kNone, kBottom, kAll, kOwn };
+/// Returns the names of the values of Anchored, in order, but for kOwn: what is no structure has no
+/// feet of its own.
 std::span<const std::string_view> anchored_names();
 
 /// The keys of [[solid]] that all structures share, except for the placement (placement.h).
@@ -48,7 +49,7 @@ struct SolidHead {
   std::string name;
   Vec3 velocity = Vec3::Zero();
   Vec3 angular_velocity = Vec3::Zero();
-  Anchored anchored = Anchored::kNone;
+  Anchored anchored = Anchored::kOwn;
 };
 
 /// The keys of a part of a compound, except for the placement (placement.h).

@@ -75,8 +75,8 @@ void add_drive(const Value& table, Scene& scene) {
   std::vector<std::uint32_t> roots = roots_named(scene, given.name, name);
   if (std::ranges::all_of(roots, [&](std::uint32_t root) { return is_anchored(scene, root); })) {
     throw InputError(name.where + ": '" + given.name +
-                     "' in [[script.drive]] is anchored to the world and cannot be moved; remove "
-                     "its key 'anchored'");
+                     "' in [[script.drive]] is anchored to the world and cannot be moved; set "
+                     "its key 'anchored' to \"none\"");
   }
   scene.drives.push_back({given.time_s, given.until_s, std::move(roots), given.velocity,
                           given.force_N, given.angular_velocity, given.torque_Nm});
@@ -140,7 +140,7 @@ void add_move(const Value& table, Scene& scene) {
     const auto moves = [&](const Move& other) { return std::ranges::count(other.roots, root) > 0; };
     if (root >= scene.solids.size()) refuse("is a ball; only a [[body]] or [[solid]] can be moved");
     if (is_anchored(scene, root)) {
-      refuse("is anchored to the world and cannot be moved; remove its key 'anchored'");
+      refuse("is anchored to the world and cannot be moved; set its key 'anchored' to \"none\"");
     }
     if (std::ranges::any_of(scene.moves, moves))
       refuse("is moved by another [[script.move]] already");

@@ -186,8 +186,8 @@ constexpr Fault kFaults[] = {
      "bad.toml:5: [[script.drive]] needs velocity, or angular_velocity, or both"},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\n[[script.drive]]\nvelocity = [1, 0, "
      "0]\nname = \"box\"",
-     "bad.toml:8: 'box' in [[script.drive]] is anchored to the world and cannot be moved; remove "
-     "its key 'anchored'"},
+     "bad.toml:8: 'box' in [[script.drive]] is anchored to the world and cannot be moved; set "
+     "its key 'anchored' to \"none\""},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"",
      "bad.toml:5: [[script.move]] needs at least one [[script.move.key]]"},
     {"[[solid]]\nstructure = \"box\"\n[[script.move]]\nname = \"box\"\nkey = [{ time_s = 0 }]",
@@ -209,8 +209,8 @@ constexpr Fault kFaults[] = {
      "bad.toml:8: the last key of a [[script.move]] with loop = true must be the initial pose"},
     {"[[solid]]\nstructure = \"box\"\nanchored = \"all\"\n[[script.move]]\nname = \"box\"\nkey = "
      "[{ time_s = 1 }]",
-     "bad.toml:7: 'box' in [[script.move]] is anchored to the world and cannot be moved; remove "
-     "its key 'anchored'"},
+     "bad.toml:7: 'box' in [[script.move]] is anchored to the world and cannot be moved; set "
+     "its key 'anchored' to \"none\""},
     {"[[ball]]\nname = \"b\"\n[[script.move]]\nname = \"b\"\nkey = [{ time_s = 1 }]",
      "bad.toml:6: 'b' in [[script.move]] is a ball; only a [[body]] or [[solid]] can be moved"},
     {"[[solid]]\nstructure = \"box\"\n[[joint]]\nkind = \"ball\"\na = \"box\"\nat = [0, 1, "

@@ -248,6 +248,32 @@ TEST(Copies, OfStructuresOfSeveralSolidsKeepTheirOrder) {
   }
 }
 
+TEST(Anchored, DecidesAlsoForStructuresThatStandOnFeetOfTheirOwn) {
+  struct Case {
+    const char *structure, *anchored;
+    bool stands;
+  };
+  for (const Case& c : {Case{"pane", "", true},
+                        {"pane", "none", false},
+                        {"pane", "bottom", true},
+                        {"pane", "all", true},
+                        {"pane", "own", true},
+                        {"hall", "", true},
+                        {"hall", "none", false},
+                        {"arena", "", true},
+                        {"arena", "none", false},
+                        {"box", "", false},
+                        {"box", "own", false},
+                        {"box", "bottom", true}}) {
+    std::string lines = "[[solid]]\nstructure = \"" + std::string(c.structure) + "\"\n";
+    if (c.anchored[0] != 0) lines += "anchored = \"" + std::string(c.anchored) + "\"\n";
+    const Scene scene = scene_of(lines);
+    const bool stands = std::ranges::any_of(
+        scene.solids, [](const Solid& solid) { return solid.compound.is_anchored(); });
+    EXPECT_EQ(stands, c.stands) << lines;
+  }
+}
+
 TEST(Anchored, AllAnchorsEveryPartOnEverySide) {
   for (const char* lines : {"[[solid]]\nstructure = \"house\"\nanchored = \"all\"",
                             "[[body]]\nmesh = \"torus:1,0.3\"\nanchored = \"all\""}) {
