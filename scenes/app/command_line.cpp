@@ -12,6 +12,7 @@
 #include "scenes/app/manual.h"
 #include "scenes/app/subcommand.h"
 #include "scenes/solid_break.h"
+#include "scenes/trade/study.h"
 
 namespace sunder::app {
 namespace {
@@ -296,8 +297,21 @@ void add_trade(CLI::App& program, Command& chosen) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.app->add_option("--seeds", options.seeds, "Runs of each scene at each point")
-      ->check(from_to(1, 10000))
+      ->check(from_to(1, scenes::kMaxSeeds))
       ->capture_default_str();
+  auto* equal =
+      command.app
+          ->add_option(
+              "--equal", options.equal,
+              "Compare N pairs of groups of equal runs, of realtime or of each of --points")
+          ->type_name("N")
+          ->check(from_to(1, 100000));
+  command.app
+      ->add_option("--pool", options.pool,
+                   "Runs that --equal draws groups of --seeds from; 4 times --seeds by default")
+      ->type_name("N")
+      ->check(from_to(4, scenes::kMaxSeeds))
+      ->needs(equal);
   command.app->add_flag("--list", options.list, "Print the runs, one per line, without doing them");
   auto* shard =
       command.app

@@ -131,6 +131,8 @@ struct TradeOptions : CommonOptions {
   std::string points;  ///< File of points; empty: the default grid.
   std::vector<std::string> switches;
   int seeds = 8;
+  int equal = 0;      ///< Pairs of groups of equal runs to compare, in place of points; 0: none.
+  int pool = 0;       ///< Runs that the groups are drawn from; 0: four times the seeds.
   int frames = -1;    ///< Index of the last frame; -1: to the end of the scene.
   std::string shard;  ///< "I/N"; empty: all runs.
   bool list = false;

@@ -14,6 +14,7 @@
 #include "scenes/app/commands.h"
 #include "scenes/app/work_progress.h"
 #include "scenes/file/text_file.h"
+#include "scenes/trade/equal.h"
 #include "scenes/trade/merge.h"
 #include "scenes/trade/report.h"
 #include "scenes/trade/run_file.h"
@@ -25,13 +26,35 @@ namespace {
 namespace fs = std::filesystem;
 using scenes::StudyRun;
 
+/// Returns the number of runs that groups of equal runs are drawn from.
+int pool_of(const TradeOptions& options) {
+  if (options.seeds < 2)
+    throw InputError("--equal: --seeds is " + std::to_string(options.seeds) +
+                     "; expected 2 or more, as groups of one run have no spread");
+  const int pool = options.pool > 0 ? options.pool : std::min(4 * options.seeds, scenes::kMaxSeeds);
+  if (pool < 2 * options.seeds)
+    throw InputError("--pool " + std::to_string(pool) + ": expected at least " +
+                     std::to_string(2 * options.seeds) + ", two groups of --seeds");
+  return pool;
+}
+
+/// Returns the points before --switch; the last is the limit.
+std::vector<scenes::StudyPoint> points_of(const TradeOptions& options) {
+  if (!options.points.empty())
+    return scenes::parse_points(scenes::read_text(options.points, file_kinds::kText),
+                                options.points);
+  std::vector<scenes::StudyPoint> points = scenes::default_points();
+  if (options.equal > 0)
+    std::erase_if(points, [](const scenes::StudyPoint& point) {
+      return !point.is_limit() && point.name != "realtime";
+    });
+  return points;
+}
+
 scenes::Study study_of(const TradeOptions& options) {
   scenes::Study study;
   study.scenes = options.scenes;
-  study.points = options.points.empty()
-                     ? scenes::default_points()
-                     : scenes::parse_points(scenes::read_text(options.points, file_kinds::kText),
-                                            options.points);
+  study.points = points_of(options);
   for (const std::string& assignment : options.switches) {
     scenes::add_switch(study.points, assignment);
   }
@@ -44,6 +67,12 @@ scenes::Study study_of(const TradeOptions& options) {
   study.set = options.load.set;
   study.seeds = options.seeds;
   study.frames = options.frames;
+  if (options.equal > 0) {
+    study.points.pop_back();  // nothing is compared with the limit
+    study.seeds = pool_of(options);
+  } else {
+    scenes::add_coarser_limits(study.points, study.set);
+  }
   return study;
 }
 
@@ -131,7 +160,29 @@ bool carry_out(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   return complete;
 }
 
+/// Prints the names of missing runs. Returns an exit code.
+int list_missing(const std::vector<std::string>& missing, std::size_t of) {
+  if (missing.empty()) return 0;
+  for (const std::string& name : missing) std::fprintf(stderr, "missing: %s\n", name.c_str());
+  std::fprintf(stderr,
+               "failed: %zu of %zu runs are missing; run the same command again to complete them\n",
+               missing.size(), of);
+  return 1;
+}
+
+int report_equal(const TradeOptions& options, const std::vector<StudyRun>& runs) {
+  const scenes::EqualStudy found =
+      scenes::compare_equal(runs, options.output, options.seeds, options.equal);
+  const std::string json = scenes::equal_json(found);
+  const fs::path file = fs::path(options.output) / "equal.json";
+  write_file(file, json);
+  options.print(scenes::equal_table(found) + "wrote " + file.string() + "\n");
+  options.write_json(json);
+  return list_missing(found.missing, found.runs);
+}
+
 int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
+  if (options.equal > 0) return report_equal(options, runs);
   const scenes::Trade found = scenes::merge(runs, options.output);
   const fs::path folder = options.output;
   const std::string json = scenes::trade_json(found);
@@ -143,12 +194,7 @@ int report(const TradeOptions& options, const std::vector<StudyRun>& runs) {
   }
   options.print(scenes::trade_table(found) + "wrote " + (folder / "trade.html").string() + "\n");
   options.write_json(json);
-  if (found.missing.empty()) return 0;
-  for (const std::string& name : found.missing) std::fprintf(stderr, "missing: %s\n", name.c_str());
-  std::fprintf(stderr,
-               "failed: %zu of %zu runs are missing; run the same command again to complete them\n",
-               found.missing.size(), found.runs);
-  return 1;
+  return list_missing(found.missing, found.runs);
 }
 
 }  // namespace

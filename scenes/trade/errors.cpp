@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
-#include <limits>
-#include <map>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "engine/base/check.h"
@@ -15,6 +14,8 @@
 namespace sunder::scenes {
 namespace {
 
+constexpr int kResamples = 1000;         // of a confidence interval
+constexpr double kTail = 0.05;           // probability below an interval, and above it
 constexpr double kRelativeFloor = 0.01;  // relative to the mean magnitude
 constexpr std::pair<std::string_view, double> kUnitFloors[] = {{"penetration worst m", 1e-2},
                                                                {" m", 1e-3},
@@ -23,54 +24,46 @@ constexpr std::pair<std::string_view, double> kUnitFloors[] = {{"penetration wor
                                                                {" share", 0.01},
                                                                {" J/kg", 0.01},
                                                                {"pieces", 1}};
-constexpr int kSplits = 64;             // random halves of the reference's seeds
-constexpr double kNoiseQuantile = 0.9;  // of pairs that differ by less than the noise
 
 using Samples = std::vector<double>;
 
-/// Returns, by name, the samples of each run that has any.
-std::map<std::string, std::vector<Samples>> by_name(std::span<const Facts> runs) {
-  std::map<std::string, std::vector<Samples>> all;
-  for (const Facts& facts : runs)
-    for (const auto& [name, samples] : facts.samples)
-      if (!samples.empty()) all[name].push_back(samples);
-  return all;
-}
-
-Samples pooled(std::span<const Samples> runs) {
-  Samples all;
-  for (const Samples& run : runs) all.insert(all.end(), run.begin(), run.end());
-  return all;
-}
-
-/// Returns the difference due to chance of `point` seeds from all seeds of the reference.
-double chance_difference(std::vector<Samples> reference, std::size_t point) {
-  const std::size_t half = reference.size() / 2;
-  if (half == 0) return 0;
-  Random random(1);
-  Samples distances;
-  for (int split = 0; split < kSplits; ++split) {
-    for (std::size_t i = 0; i + 1 < reference.size(); ++i) {
-      const auto left = static_cast<std::uint32_t>(reference.size() - i);
-      std::swap(reference[i], reference[i + random.below(left)]);
-    }
-    const std::span<const Samples> all(reference);
-    distances.push_back(distance_between(pooled(all.first(half)), pooled(all.subspan(half, half))));
+/// Returns the samples of each run, sorted; empty for a run that has none of this name.
+std::vector<Samples> sorted_samples(std::span<const Facts> runs, const std::string& name) {
+  std::vector<Samples> all;
+  for (const Facts& facts : runs) {
+    const auto found = facts.samples.find(name);
+    all.push_back(found == facts.samples.end() ? Samples() : found->second);
+    std::ranges::sort(all.back());
   }
-  const double sets =
-      1.0 / static_cast<double>(point) + 1.0 / static_cast<double>(reference.size());
-  return quantile(distances, kNoiseQuantile) * std::sqrt(sets * static_cast<double>(half) / 2);
+  return all;
+}
+
+double mean_magnitude(const Samples& samples) {
+  double sum = 0;
+  for (const double sample : samples) sum += std::abs(sample);
+  return sum / static_cast<double>(samples.size());
+}
+
+DistanceMatrix distances_between(const std::vector<Samples>& runs) {
+  DistanceMatrix distances(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (runs[i].empty() || runs[j].empty()) continue;
+      distances.set(i, j, distance_between(runs[i], runs[j]));
+    }
+  }
+  return distances;
 }
 
 }  // namespace
 
-double distance_between(std::vector<double> a, std::vector<double> b) {
+const FigureError* PointError::largest() const {
+  const auto at = std::ranges::max_element(figures, {}, &FigureError::error);
+  return at == figures.end() ? nullptr : &*at;
+}
+
+double distance_between(std::span<const double> a, std::span<const double> b) {
   SUNDER_CHECK(!a.empty() && !b.empty());
-  const auto is_finite = [](double sample) { return std::isfinite(sample); };
-  if (!std::ranges::all_of(a, is_finite) || !std::ranges::all_of(b, is_finite))
-    return std::numeric_limits<double>::infinity();
-  std::ranges::sort(a);
-  std::ranges::sort(b);
   const double of_a = 1.0 / static_cast<double>(a.size());
   const double of_b = 1.0 / static_cast<double>(b.size());
   double distance = 0, at = std::min(a[0], b[0]);
@@ -85,37 +78,101 @@ double distance_between(std::vector<double> a, std::vector<double> b) {
   return distance;
 }
 
-double noise_floor(std::string_view name, std::span<const double> reference) {
-  double sum = 0;
-  for (const double sample : reference) sum += std::abs(sample);
-  const double mean = reference.empty() ? 0 : sum / static_cast<double>(reference.size());
+double noise_floor(std::string_view name, double mean_magnitude) {
   const auto unit =
       std::ranges::find_if(kUnitFloors, [&](const auto& one) { return name.ends_with(one.first); });
   SUNDER_CHECK(unit != std::end(kUnitFloors));
-  return std::max(kRelativeFloor * mean, unit->second);
+  return std::max(kRelativeFloor * mean_magnitude, unit->second);
 }
 
-std::vector<TradeError> trade_errors(std::span<const Facts> point,
-                                     std::span<const Facts> reference) {
-  SUNDER_CHECK(!reference.empty());
-  const auto found = by_name(point);
-  std::vector<TradeError> errors;
-  for (const auto& [name, runs] : by_name(reference)) {
-    const auto at = found.find(name);
-    if (at == found.end()) continue;
-    const Samples all = pooled(runs);
-    TradeError error{name, distance_between(pooled(at->second), all)};
-    error.noise = std::max(chance_difference(runs, at->second.size()), noise_floor(name, all));
-    error.over_noise = error.distance / error.noise;
-    errors.push_back(std::move(error));
+RunDistances::RunDistances(std::span<const Facts> runs) {
+  std::set<std::string> names;
+  for (const Facts& facts : runs)
+    for (const auto& [name, samples] : facts.samples) names.insert(name);
+  for (const std::string& name : names) {
+    const std::vector<Samples> samples = sorted_samples(runs, name);
+    Figure figure{name, distances_between(samples), {}};
+    for (const Samples& each : samples)
+      figure.magnitudes.push_back(each.empty() ? -1 : mean_magnitude(each));
+    figures_.push_back(std::move(figure));
   }
-  return errors;
 }
 
-double worst(std::span<const TradeError> errors) {
-  double largest = 0;
-  for (const TradeError& error : errors) largest = std::max(largest, error.over_noise);
-  return largest;
+double RunDistances::scale(const Figure& figure, Group group) {
+  double magnitude = 0;
+  for (const std::size_t run : group) magnitude += figure.magnitudes[run];
+  magnitude /= static_cast<double>(group.size());
+  return std::max(spread(figure.distances, group), noise_floor(figure.name, magnitude));
+}
+
+std::vector<const RunDistances::Figure*> RunDistances::shared_figures(Group point,
+                                                                      Group limit) const {
+  std::vector<const Figure*> shared;
+  for (const Figure& figure : figures_) {
+    const auto has_samples = [&](std::size_t run) { return figure.magnitudes[run] >= 0; };
+    if (std::ranges::all_of(point, has_samples) && std::ranges::all_of(limit, has_samples))
+      shared.push_back(&figure);
+  }
+  return shared;
+}
+
+PointError RunDistances::compare(Group point, Group limit) const {
+  std::vector<std::size_t> runs(point.begin(), point.end());
+  runs.insert(runs.end(), limit.begin(), limit.end());
+  PointError found;
+  std::vector<DistanceMatrix> matrices;
+  DistanceMatrix all(runs.size());  // scaled by the spread of both groups, so that they are equal
+  for (const Figure* figure : shared_figures(point, limit)) {
+    FigureError error{figure->name, difference(figure->distances, point, limit),
+                      scale(*figure, limit)};
+    error.error = error.difference / error.spread;
+    found.figures.push_back(std::move(error));
+    all.add(matrices.emplace_back(figure->distances.part(runs)), 1 / scale(*figure, runs));
+  }
+  if (found.figures.empty()) return found;
+  matrices.push_back(std::move(all));
+  const std::vector<double> p = permutation_p(matrices, point.size());
+  found.p = std::ranges::min(p);
+  const auto count = static_cast<double>(found.figures.size());
+  for (std::size_t i = 0; i < found.figures.size(); ++i) {
+    found.figures[i].p = p[i];
+    found.error += found.figures[i].error / count;
+  }
+  return found;
+}
+
+Interval RunDistances::interval(Group point, Group limit) const {
+  const std::vector<const Figure*> figures = shared_figures(point, limit);
+  if (figures.empty()) return {};
+  Random random(2);
+  const auto draw = [&](Group group) {
+    std::vector<std::size_t> drawn;
+    for (std::size_t i = 0; i < group.size(); ++i)
+      drawn.push_back(group[random.below(static_cast<std::uint32_t>(group.size()))]);
+    return drawn;
+  };
+  std::vector<double> errors;
+  for (int i = 0; i < kResamples; ++i) {
+    const std::vector<std::size_t> a = draw(point), b = draw(limit);
+    double sum = 0;
+    for (const Figure* figure : figures)
+      sum += difference(figure->distances, a, b) / scale(*figure, b);
+    errors.push_back(sum / static_cast<double>(figures.size()));
+  }
+  return {quantile(errors, kTail), quantile(errors, 1 - kTail)};
+}
+
+PointError point_error(std::span<const Facts> point, std::span<const Facts> limit) {
+  std::vector<Facts> all(point.begin(), point.end());
+  all.insert(all.end(), limit.begin(), limit.end());
+  std::vector<std::size_t> runs(all.size());
+  std::iota(runs.begin(), runs.end(), std::size_t{0});
+  const RunDistances::Group order(runs);
+  const RunDistances::Group a = order.first(point.size()), b = order.subspan(point.size());
+  const RunDistances distances(all);
+  PointError found = distances.compare(a, b);
+  found.interval = distances.interval(a, b);
+  return found;
 }
 
 }  // namespace sunder::scenes

@@ -6,7 +6,6 @@
 
 #include "engine/io/statistics.h"
 #include "scenes/trade/front.h"
-#include "scenes/trade/run_file.h"
 
 namespace sunder::scenes {
 namespace {
@@ -40,26 +39,37 @@ PointTrade evaluate(const PointRuns& found, std::span<const Facts> limit) {
   trade.cost_ms = quantile(found.cpu_ms, 0.5);
   trade.wall_ms = quantile(found.wall_ms, 0.5);
   trade.failed = found.failed;
-  if (!limit.empty() && !found.facts.empty() && !found.point.is_limit()) {
-    trade.errors = trade_errors(found.facts, limit);
-    trade.error = worst(trade.errors);
+  if (limit.size() >= 2 && found.facts.size() >= 2 && !found.point.is_limit()) {
+    trade.compared = point_error(found.facts, limit);
+    trade.error = trade.compared->error;
   }
   if (!found.failed.empty()) trade.error = std::numeric_limits<double>::infinity();
   return trade;
 }
 
-/// Finds the front among the points with a finite error, except the limit, and costs relative to
+/// Finds the front among the points with a finite error, except the limits, and costs relative to
 /// it.
 void find_front(std::vector<PointTrade>& trades) {
   std::vector<TradePoint> points;
   std::vector<PointTrade*> trade_at;
   for (PointTrade& trade : trades) {
-    if (trade.point.is_limit() || !trade.error || !std::isfinite(*trade.error)) continue;
-    points.push_back({trade.point.name, trade.point.is_preset(), trade.cost_ms, *trade.error});
+    if (trade.point.is_limit() || trade.point.is_coarser_limit()) continue;
+    if (!trade.error || !std::isfinite(*trade.error)) continue;
+    points.push_back({trade.point.name, trade.point.is_preset(), trade.cost_ms,
+                      std::max(*trade.error, kLeastError)});
     trade_at.push_back(&trade);
   }
   for (const std::size_t i : pareto_front(points)) trade_at[i]->on_front = true;
   for (std::size_t i = 0; i < points.size(); ++i) trade_at[i]->over_front = over_front(points, i);
+}
+
+Convergence convergence_of(const std::vector<PointTrade>& points) {
+  const auto coarser =
+      std::ranges::find(points, kLimit2h, [](const PointTrade& each) { return each.point.name; });
+  if (coarser == points.end() || !coarser->compared || !coarser->failed.empty())
+    return Convergence::kUnknown;
+  if (coarser->compared->interval.high <= kConvergedError) return Convergence::kConverged;
+  return coarser->compared->differs() ? Convergence::kNoLimit : Convergence::kUndecided;
 }
 
 SceneTrade evaluate(const SceneRuns& found) {
@@ -73,10 +83,33 @@ SceneTrade evaluate(const SceneRuns& found) {
     if (!point.cpu_ms.empty()) scene.points.push_back(evaluate(point, limit));
   }
   find_front(scene.points);
+  scene.limit = convergence_of(scene.points);
   return scene;
 }
 
 }  // namespace
+
+const char* name_of(Convergence convergence) {
+  switch (convergence) {
+    case Convergence::kUnknown:
+      return "unknown";
+    case Convergence::kConverged:
+      return "converged";
+    case Convergence::kNoLimit:
+      return "no limit";
+    case Convergence::kUndecided:
+      return "undecided";
+  }
+  return "";
+}
+
+StoredRun read_or_list(const StudyRun& run, const std::filesystem::path& folder,
+                       std::vector<std::string>& missing) {
+  StoredRun stored = read_run(folder, run);
+  if (!stored.missing.empty())
+    missing.push_back(run.name() + (stored.damaged ? " (" + stored.missing + ")" : ""));
+  return stored;
+}
 
 Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder) {
   Trade trade;
@@ -84,11 +117,8 @@ Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& fold
   std::vector<SceneRuns> scenes;
   for (const StudyRun& run : runs) {
     PointRuns& found = find_or_add(scenes, run);
-    const StoredRun stored = read_run(folder, run);
-    if (!stored.missing.empty()) {
-      trade.missing.push_back(run.name() + (stored.damaged ? " (" + stored.missing + ")" : ""));
-      continue;
-    }
+    const StoredRun stored = read_or_list(run, folder, trade.missing);
+    if (!stored.missing.empty()) continue;
     const RunResult& result = stored.ran.result;
     found.cpu_ms.push_back(stored.ran.time.cpu_ms);
     found.wall_ms.push_back(stored.ran.time.wall_ms);

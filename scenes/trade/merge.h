@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/trade/errors.h"
+#include "scenes/trade/run_file.h"
 #include "scenes/trade/study.h"
 
 namespace sunder::scenes {
@@ -17,16 +18,34 @@ struct PointTrade {
   int runs = 0;        ///< Number of runs that exist, with failed ones.
   double cost_ms = 0;  ///< Processor time per frame, median over seeds.
   double wall_ms = 0;  ///< Wall time per frame, median over seeds.
-  std::vector<TradeError> errors;
-  /// Largest error over its noise; infinite if a run failed; nothing if there is no reference.
+  /// Difference from the limit; nothing for the limit, or if it or the point has fewer than two
+  /// runs.
+  std::optional<PointError> compared;
+  /// Error of `compared`; infinite if a run failed; nothing without either.
   std::optional<double> error;
   std::string failed;  ///< Reason of the first failure; empty if no run failed.
   bool on_front = false;
   std::optional<double> over_front;  ///< Cost divided by that of the front at equal error.
 };
 
+/// Whether the limit depends on its step, by the error of the limit with steps of twice the length.
+enum class Convergence {
+  kUnknown,    ///< There are no such runs.
+  kConverged,  ///< The error is at most kConvergedError, at a confidence of 95 %.
+  kNoLimit,    ///< The two differ, and the error may be larger.
+  kUndecided,  ///< The error may be larger, or may be none: there are too few seeds.
+};
+/// Returns "unknown", "converged", "no limit" or "undecided".
+const char* name_of(Convergence convergence);
+
+/// Largest error of a limit against itself with twice the step, for which it counts as converged.
+inline constexpr double kConvergedError = 0.25;
+/// Smaller errors are no advantage: they are below the noise of eight seeds.
+inline constexpr double kLeastError = 0.05;
+
 struct SceneTrade {
   std::string scene;
+  Convergence limit = Convergence::kUnknown;
   std::vector<PointTrade> points;  ///< Points with runs, in the order of the study.
 };
 
@@ -36,6 +55,9 @@ struct Trade {
   std::size_t runs = 0;              ///< Number of runs of the study.
 };
 
+/// Reads a run, and adds its name to the list if it must be done, with the reason if a file exists.
+StoredRun read_or_list(const StudyRun& run, const std::filesystem::path& folder,
+                       std::vector<std::string>& missing);
 /// Reads the runs of a study from its folder.
 Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cstring>
 #include <set>
 #include <sstream>
 
@@ -71,6 +73,24 @@ std::vector<StudyPoint> parse_lines(const std::string& text, const std::string& 
   return points;
 }
 
+/// Returns the step of a point, which is not checked yet; 0 if it is no number.
+double step_of(const StudyPoint& point, const std::vector<std::string>& set) {
+  constexpr const char* kStep = "accuracy.dt_s=";
+  double dt_s = 0;
+  for (const Preset& preset : presets()) {
+    if (preset.name == point.preset) dt_s = preset.accuracy.dt_s;
+  }
+  for (const std::vector<std::string>* keys : {&set, &point.set}) {
+    for (const std::string& assignment : *keys) {
+      if (!assignment.starts_with(kStep)) continue;
+      const char* end = assignment.data() + assignment.size();
+      dt_s = 0;
+      std::from_chars(assignment.data() + std::strlen(kStep), end, dt_s);
+    }
+  }
+  return dt_s;
+}
+
 }  // namespace
 
 std::vector<StudyPoint> parse_points(const std::string& text, const std::string& file) {
@@ -97,6 +117,22 @@ void add_switch(std::vector<StudyPoint>& points, const std::string& assignment) 
     switched.push_back({point.name + "+" + assignment, point.preset, {assignment}});
   }
   points.insert(points.end() - 1, switched.begin(), switched.end());
+}
+
+void add_coarser_limits(std::vector<StudyPoint>& points, const std::vector<std::string>& set) {
+  constexpr double kLongestStep_s = 1.0 / 60 * (1 + 1e-9);
+  const StudyPoint limit = points.back();
+  const double dt_s = step_of(limit, set);
+  for (const auto& [name, factor] : {std::pair(kLimit4h, 4.0), {kLimit2h, 2.0}}) {
+    const double step_s = factor * dt_s;
+    if (!(step_s > 0 && step_s <= kLongestStep_s)) continue;
+    if (std::ranges::find(points, name, &StudyPoint::name) != points.end()) continue;
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, step_s).ptr;
+    StudyPoint coarser{name, limit.preset, limit.set};
+    coarser.set.push_back("accuracy.dt_s=" + std::string(digits, end));
+    points.insert(points.end() - 1, std::move(coarser));
+  }
 }
 
 }  // namespace sunder::scenes

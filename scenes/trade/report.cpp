@@ -18,6 +18,12 @@ std::string digits(const std::optional<double>& value, int count = 9) {
   return text;
 }
 
+std::string decimals(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
 /// Returns a field of a CSV file (RFC 4180).
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -32,24 +38,21 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-const TradeError* find_error(const PointTrade& point, const std::string& name) {
-  const auto at = std::find_if(point.errors.begin(), point.errors.end(),
-                               [&](const TradeError& error) { return error.name == name; });
-  return at == point.errors.end() ? nullptr : &*at;
+const FigureError* find_error(const PointTrade& point, const std::string& name) {
+  if (!point.compared) return nullptr;
+  const auto at = std::ranges::find(point.compared->figures, name, &FigureError::name);
+  return at == point.compared->figures.end() ? nullptr : &*at;
 }
 
-/// Returns the largest error of a point over its noise; null if it has none.
-const TradeError* worst_of(const PointTrade& point) {
-  const auto at = std::max_element(
-      point.errors.begin(), point.errors.end(),
-      [](const TradeError& a, const TradeError& b) { return a.over_noise < b.over_noise; });
-  return at == point.errors.end() ? nullptr : &*at;
+/// Returns the figure of the largest error of a point; null if it has none.
+const FigureError* largest_of(const PointTrade& point) {
+  return point.compared ? point.compared->largest() : nullptr;
 }
 
-/// Returns "drift 0.012 m": the name of an error ends with its unit, or is one, as "pieces".
-std::string format_distance(const TradeError& error) {
+/// Returns "drift 0.012 m": the name of a figure ends with its unit, or is one, as "pieces".
+std::string format_difference(const FigureError& error) {
   const std::size_t space = error.name.rfind(' ');
-  const std::string distance = digits(error.distance, 3);
+  const std::string distance = digits(error.difference, 3);
   if (space == std::string::npos) return distance + " " + error.name;
   return error.name.substr(0, space) + " " + distance + error.name.substr(space);
 }
@@ -59,7 +62,8 @@ std::set<std::string> error_names(const std::vector<SceneTrade>& scenes) {
   std::set<std::string> names;
   for (const SceneTrade& scene : scenes) {
     for (const PointTrade& point : scene.points) {
-      for (const TradeError& error : point.errors) names.insert(error.name);
+      if (!point.compared) continue;
+      for (const FigureError& error : point.compared->figures) names.insert(error.name);
     }
   }
   return names;
@@ -83,13 +87,19 @@ void put(Figures& figures, const std::string& at, const PointTrade& point) {
   put(figures, at + "/error", point.error);
   put(figures, at + "/over_front", point.over_front);
   if (!point.failed.empty()) figures[at + "/failed"] = point.failed;
-  for (std::size_t i = 0; i < point.errors.size(); ++i) {
-    const TradeError& error = point.errors[i];
+  if (!point.compared) return;
+  figures[at + "/error_low"] = point.compared->interval.low;
+  figures[at + "/error_high"] = point.compared->interval.high;
+  figures[at + "/p"] = point.compared->p;
+  figures[at + "/differs"] = point.compared->differs();
+  for (std::size_t i = 0; i < point.compared->figures.size(); ++i) {
+    const FigureError& error = point.compared->figures[i];
     const std::string place = at + "/errors/" + std::to_string(i);
     figures[place + "/name"] = error.name;
-    put(figures, place + "/distance", error.distance);
-    put(figures, place + "/noise", error.noise);
-    put(figures, place + "/over_noise", error.over_noise);
+    figures[place + "/difference"] = error.difference;
+    figures[place + "/spread"] = error.spread;
+    figures[place + "/error"] = error.error;
+    figures[place + "/p"] = error.p;
   }
 }
 
@@ -98,7 +108,8 @@ void put(Figures& figures, const std::string& at, const PointTrade& point) {
 std::string trade_csv(const Trade& trade) {
   const std::set<std::string> names = error_names(trade.scenes);
   std::string csv =
-      "scene,point,preset,set,runs,cost_ms,wall_ms,error,worst,on_front,over_front,failed";
+      "scene,point,preset,set,runs,cost_ms,wall_ms,error,error_low,error_high,p,limit,largest,"
+      "on_front,over_front,failed";
   for (const std::string& name : names) csv += "," + quoted(name);
   csv += "\n";
   for (const SceneTrade& scene : trade.scenes) {
@@ -106,12 +117,16 @@ std::string trade_csv(const Trade& trade) {
       csv += quoted(scene.scene) + "," + quoted(point.point.name) + "," + point.point.preset + "," +
              quoted(joined(point.point.set)) + "," + std::to_string(point.runs) + "," +
              digits(point.cost_ms) + "," + digits(point.wall_ms) + "," + digits(point.error) + "," +
-             quoted(worst_of(point) ? worst_of(point)->name : "") + "," +
-             (point.on_front ? "1" : "0") + "," + digits(point.over_front) + "," +
+             digits(point.compared ? std::optional(point.compared->interval.low) : std::nullopt) +
+             "," +
+             digits(point.compared ? std::optional(point.compared->interval.high) : std::nullopt) +
+             "," + digits(point.compared ? std::optional(point.compared->p) : std::nullopt) + "," +
+             name_of(scene.limit) + "," + quoted(largest_of(point) ? largest_of(point)->name : "") +
+             "," + (point.on_front ? "1" : "0") + "," + digits(point.over_front) + "," +
              quoted(point.failed);
       for (const std::string& name : names) {
-        const TradeError* error = find_error(point, name);
-        csv += "," + (error ? digits(error->over_noise) : std::string());
+        const FigureError* error = find_error(point, name);
+        csv += "," + (error ? digits(error->error) : std::string());
       }
       csv += "\n";
     }
@@ -128,6 +143,7 @@ std::string trade_json(const Trade& trade) {
   for (std::size_t i = 0; i < trade.scenes.size(); ++i) {
     const std::string at = "/scenes/" + std::to_string(i);
     figures[at + "/scene"] = trade.scenes[i].scene;
+    figures[at + "/limit"] = name_of(trade.scenes[i].limit);
     const std::vector<PointTrade>& points = trade.scenes[i].points;
     for (std::size_t j = 0; j < points.size(); ++j) {
       put(figures, at + "/points/" + std::to_string(j), points[j]);
@@ -138,19 +154,27 @@ std::string trade_json(const Trade& trade) {
 
 std::string trade_table(const Trade& trade) {
   std::string text =
-      "scene              point      ms per frame  error/noise  cost/front  largest error\n";
+      "scene              point      ms per frame   error   90 % interval      p  cost/front  "
+      "largest error\n";
   for (const SceneTrade& scene : trade.scenes) {
     for (const PointTrade& point : scene.points) {
       char line[200];
-      const TradeError* worst = worst_of(point);
+      const FigureError* largest = largest_of(point);
       const std::string last = !point.failed.empty() ? point.failed
-                               : worst               ? format_distance(*worst)
+                               : largest             ? format_difference(*largest)
                                                      : std::string();
-      std::snprintf(line, sizeof line, "%-18s %-10s %12.3f %12s %11s  %s\n", scene.scene.c_str(),
-                    point.point.name.c_str(), point.cost_ms, digits(point.error, 3).c_str(),
+      const std::string interval = point.compared
+                                       ? decimals(point.compared->interval.low) + " to " +
+                                             decimals(point.compared->interval.high)
+                                       : std::string();
+      std::snprintf(line, sizeof line, "%-18s %-10s %12.3f %7s %15s %6s %11s  %s\n",
+                    scene.scene.c_str(), point.point.name.c_str(), point.cost_ms,
+                    point.error ? decimals(*point.error).c_str() : "", interval.c_str(),
+                    point.compared ? digits(point.compared->p, 2).c_str() : "",
                     digits(point.over_front, 3).c_str(), last.c_str());
       text += line;
     }
+    text += scene.scene + ": limit " + name_of(scene.limit) + "\n";
   }
   return text;
 }

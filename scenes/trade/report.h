@@ -7,9 +7,9 @@
 
 namespace sunder::scenes {
 
-/// Returns a line per point and scene, with a column for each error over its noise.
+/// Returns a line per point and scene, with a column for the error of each figure.
 std::string trade_csv(const Trade& trade);
-/// Returns all results as JSON, with distances and noise.
+/// Returns all results as JSON, with differences and spreads.
 std::string trade_json(const Trade& trade);
 /// Returns a plot of the points of a scene, error over cost, with the front and labelled presets.
 std::string trade_svg(const SceneTrade& scene);

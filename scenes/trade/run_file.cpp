@@ -25,6 +25,7 @@ Figures run_settings(const StudyRun& run) {
                      {"/run/scene_hash", run.scene_hash},
                      {"/run/point", run.point.name},
                      {"/run/preset", run.point.preset},
+                     {"/run/steps", "shifted by the seed"},
                      {"/run/program", SUNDER_VERSION}};
   if (run.frames >= 0) figures["/run/frames"] = std::int64_t{run.frames};
   for (std::size_t i = 0; i < run.set.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/cpu_time.h"
+#include "engine/base/random.h"
 #include "engine/io/bytes.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
@@ -65,9 +66,69 @@ void pump_timed(FrameSource& source, int last, FactsSink& facts, Ran& ran) {
   }
 }
 
+/// Returns the times of all events of the script, ascending.
+std::vector<double> event_times_s(const Scene& scene) {
+  std::vector<double> times_s;
+  for (const Shot& shot : scene.shots) times_s.push_back(shot.time_s);
+  for (const Blast& blast : scene.blasts) times_s.push_back(blast.time_s);
+  for (const Removal& removal : scene.removals) times_s.push_back(removal.time_s);
+  for (const Drive& drive : scene.drives) {
+    times_s.push_back(drive.time_s);
+    times_s.push_back(drive.until_s);
+  }
+  for (const Move& move : scene.moves) times_s.push_back(move.release_s);
+  std::ranges::sort(times_s);
+  return times_s;
+}
+
+/// A world that runs by its script, in frames of which some are longer.
+class ShiftedSimulation final : public FrameSource {
+ public:
+  ShiftedSimulation(Scene scene, int seed)
+      : events_s_(event_times_s(scene)),
+        random_(static_cast<std::uint64_t>(seed), kPhaseStream),
+        world_(make_world(std::move(scene))) {}
+
+  FramePtr next() override {
+    if (started_) world_.step(next_time_s());
+    started_ = true;
+    return world_.frame();
+  }
+
+ private:
+  static constexpr double kFrame_s = 1.0 / 60;
+  static constexpr double kTimeTolerance_s = 1e-9;  // of an event at the end of a frame
+  static constexpr std::uint64_t kPhaseStream = 1;
+
+  double next_time_s() {
+    bool shifts = world_.time_s() == 0;
+    for (; next_event_ < events_s_.size() &&
+           events_s_[next_event_] <= world_.time_s() + kTimeTolerance_s;
+         ++next_event_)
+      shifts = true;
+    return shifts ? kFrame_s * (1 + random_.uniform()) : kFrame_s;
+  }
+
+  std::vector<double> events_s_;
+  Random random_;
+  World world_;
+  bool started_ = false;
+  std::size_t next_event_ = 0;
+};
+
 }  // namespace
 
+std::unique_ptr<FrameSource> make_shifted_simulation(Scene scene, int seed) {
+  return std::make_unique<ShiftedSimulation>(std::move(scene), seed);
+}
+
 std::string StudyRun::name() const { return scene + "/" + point.name + "-" + std::to_string(seed); }
+
+int StudyRun::scene_seed() const {
+  const char* const limits[] = {kLimit, kLimit2h, kLimit4h};
+  const auto limit = std::ranges::find(limits, point.name) - std::begin(limits);
+  return limit == std::ssize(limits) ? seed : seed + kMaxSeeds * static_cast<int>(limit + 1);
+}
 
 std::vector<StudyRun> study_runs(const Study& study) {
   std::vector<StudyRun> runs;
@@ -91,7 +152,7 @@ std::vector<StudyRun> study_runs(const Study& study) {
         run.point = point;
         run.set = study.set;
         run.set.insert(run.set.end(), point.set.begin(), point.set.end());
-        run.set.push_back("scene.seed=" + std::to_string(run.seed));
+        run.set.push_back("scene.seed=" + std::to_string(run.scene_seed()));
         runs.push_back(run);
       }
     }
@@ -153,7 +214,7 @@ Ran measure(const std::function<std::unique_ptr<FrameSource>()>& begin, int last
 Ran carry_out(const StudyRun& run) {
   Scene scene = load_scene(run);
   const int last = last_frame_of(scene, run);
-  return measure([&] { return make_simulation(std::move(scene)); }, last);
+  return measure([&] { return make_shifted_simulation(std::move(scene), run.scene_seed()); }, last);
 }
 
 }  // namespace sunder::scenes

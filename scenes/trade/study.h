@@ -1,5 +1,7 @@
 // A study: every scene is run at every point with every seed. Runs are independent, so that they
-// can be distributed over machines (bench/cluster/README.md).
+// can be distributed over machines (bench/cluster/README.md). The seed of a run determines its
+// fracture patterns and the phase of its steps: how far into a step an impact falls. The limit and
+// each coarser limit have seeds of their own, because tests of equality need independent runs.
 //
 // Begin at study_runs(), then carry_out(). merge.h evaluates the results.
 #pragma once
@@ -18,11 +20,14 @@ namespace sunder::scenes {
 
 struct Study {
   std::vector<std::string> scenes;  ///< Files or names.
-  std::vector<StudyPoint> points;   ///< The last point is the limit.
+  std::vector<StudyPoint> points;   ///< The last is the limit, unless nothing is compared with it.
   std::vector<std::string> set;     ///< key=value, for all runs.
   int seeds = 8;
   int frames = -1;  ///< Largest number of frames of a scene; negative: all.
 };
+
+/// Largest number of seeds.
+inline constexpr int kMaxSeeds = 10000;
 
 /// Everything that is needed to simulate a run on any machine.
 struct StudyRun {
@@ -36,6 +41,8 @@ struct StudyRun {
 
   /// Returns the name of the run's files without extension: "stack/realtime-1".
   std::string name() const;
+  /// Returns the seed of the scene and of the phase, which no other limit has.
+  int scene_seed() const;
 };
 
 /// Returns the runs by scene, then seed, then point: a disturbance of the machine affects all
@@ -74,6 +81,10 @@ struct Ran {
 /// Measures the first frame and `last` more of the source that begin() makes. An exception or a
 /// body that is not finite becomes a failed result.
 Ran measure(const std::function<std::unique_ptr<FrameSource>()>& begin, int last);
+/// Returns a simulation whose steps are shifted by the seed in relation to what happens: the first
+/// frame, and the first after each event of the script, takes longer by a random part of a frame.
+/// All other frames take 1/60 s; there is no last frame.
+std::unique_ptr<FrameSource> make_shifted_simulation(Scene scene, int seed);
 /// Simulates a run. Throws InputError if the scene does not exist.
 Ran carry_out(const StudyRun& run);
 

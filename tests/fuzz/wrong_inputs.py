@@ -67,6 +67,8 @@ OPTIONS = [
     ("bench --hashes h", "--from", ["nope.json", "a.toml", "d", "bad.json", "empty.json"]),
     ("bench a.toml", "--hashes", ["d", "t.obj", "noise"]),
     ("trade a.toml --list", "--seeds", NO_COUNTS + ["0", "-1", "10001"]),
+    ("trade a.toml --list", "--equal", NO_COUNTS + ["0", "-1"]),
+    ("trade a.toml --equal 9 --list", "--pool", NO_COUNTS + ["0", "-1", "15", "10001"]),
     ("trade a.toml --list", "--shard", ["3/2", "0/2", "a/b", "1", "1/0", "-1/2", "1/2/3"]),
     ("trade a.toml --list", "--points", ["nope", "d", "t.obj", "noise"]),
     ("trade a.toml --list", "--switch", ["x", "=1", "solver.sweeps="]),

@@ -30,7 +30,7 @@ chmod +x worker
 export PROGRAM=$sunder SUNDER=$work/worker PARALLEL="--jobs 2"
 
 # Share 2 of 4 has the runs 2 and 6 of 6; its worker is killed after the first.
-printf 'draft draft\nrealtime realtime\nlimit reference accuracy.substeps=16\n' >points
+printf 'draft draft\nrealtime realtime\nlimit draft accuracy.substeps=16\n' >points
 study=("$root/bench/trade/scenes/pile.toml" --points points --seeds 2 --frames 60)
 shared=("$root/bench/cluster/parallel_trade.sh" 4 "${study[@]}" -o shared)
 "$sunder" trade "${study[@]}" -o whole --quiet

@@ -1,9 +1,11 @@
-// Tests of the error between two sets of runs, on samples of known distributions.
+// Tests of the error between two groups of runs, on samples of known distributions.
 #include "scenes/trade/errors.h"
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <functional>
+#include <numbers>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +14,7 @@
 namespace sunder::scenes {
 namespace {
 
-constexpr int kSeeds = 8, kTrials = 400;
+constexpr std::size_t kSeeds = 8;
 
 /// Returns a nearly normal random number of mean 0 and standard deviation 1.
 double draw(Random& random) {
@@ -21,92 +23,196 @@ double draw(Random& random) {
   return sum;
 }
 
-/// Returns runs of `samples` samples each. The samples of a run share a random offset, so that
-/// seeds differ as well as samples of one run.
-std::vector<Facts> runs(Random& random, std::size_t samples, double mean, int seeds = kSeeds) {
-  std::vector<Facts> all(static_cast<std::size_t>(seeds));
-  for (Facts& facts : all) {
-    const double offset = mean + draw(random);
-    for (std::size_t i = 0; i < samples; ++i)
-      facts.samples["run-out m"].push_back(samples == 1 ? offset : offset + draw(random));
-  }
+using MakeRun = std::function<Facts(Random&)>;
+
+std::vector<Facts> runs(Random& random, const MakeRun& make, std::size_t count) {
+  std::vector<Facts> all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back(make(random));
   return all;
 }
 
-/// Error over noise: its mean over the trials, and the share of trials in which it is above 1.
+/// Returns a run of so many figures that have a part in common; the first three have 20 samples.
+/// The first figure is shifted by so many standard deviations.
+MakeRun correlated(int figures, double shift = 0) {
+  return [=](Random& random) {
+    Facts facts;
+    const double common = draw(random);
+    for (int i = 0; i < figures; ++i) {
+      const double own = 20 + common + draw(random) + (i == 0 ? std::sqrt(2.0) * shift : 0);
+      std::vector<double>& samples = facts.samples["figure " + std::to_string(i) + " m"];
+      for (int k = 0; k < (i < 3 ? 20 : 1); ++k)
+        samples.push_back(own + (i < 3 ? draw(random) : 0));
+    }
+    return facts;
+  };
+}
+
+/// Returns a run of one figure, normally distributed.
+MakeRun normal(double mean, double deviation = 1) {
+  return [=](Random& random) {
+    return Facts{{{"run-out m", {mean + deviation * draw(random)}}}, ""};
+  };
+}
+
+/// Returns a run that is discrete, constant or rare in every figure: pieces of one distribution, an
+/// even chance of a fall, a constant, and one seed of twenty that is far off.
+Facts discrete(Random& random) {
+  return {{{"pieces", {static_cast<double>(random.below(3))}},
+           {"surface in place share", {random.below(2) == 0 ? 1.0 : 0.2}},
+           {"drift largest m", {0.25}},
+           {"run-out m", {random.below(20) == 0 ? 100.0 : 1 + draw(random) / 10}}},
+          ""};
+}
+
+/// Shares of trials in which the groups differ and in which the interval has the true error, and
+/// the mean and the deviation of errors.
 struct Trials {
-  double mean = 0, above = 0;
+  double differ = 0, error = 0, deviation = 0, covered = 0;
 };
-Trials run_trials(std::size_t samples, double shift, int seeds = kSeeds) {
+Trials run_trials(const MakeRun& point, const MakeRun& limit, std::size_t seeds, int count,
+                  double truth = 0) {
   Random random(7);
   Trials trials;
-  for (int i = 0; i < kTrials; ++i) {
-    const std::vector<Facts> reference = runs(random, samples, 0, seeds);
-    const std::vector<TradeError> errors =
-        trade_errors(runs(random, samples, shift, seeds), reference);
-    const double over = worst(errors);
-    trials.mean += over / kTrials;
-    trials.above += (over > 1 ? 1.0 : 0.0) / kTrials;
+  for (int i = 0; i < count; ++i) {
+    const std::vector<Facts> reference = runs(random, limit, seeds);
+    const PointError found = point_error(runs(random, point, seeds), reference);
+    trials.differ += found.differs() ? 1.0 / count : 0;
+    trials.error += found.error / count;
+    trials.deviation += found.error * found.error / count;
+    const bool covers = found.interval.low <= truth && truth <= found.interval.high;
+    trials.covered += covers ? 1.0 / count : 0;
   }
+  trials.deviation = std::sqrt(trials.deviation - trials.error * trials.error);
+  std::printf("%zu seeds: differ %.3f, error %.3f ± %.3f, covered %.3f\n", seeds, trials.differ,
+              trials.error, trials.deviation, trials.covered);
   return trials;
 }
 
-TEST(Errors, DistanceIsTheMeanMotionOfSamples) {
-  EXPECT_DOUBLE_EQ(distance_between({1}, {4}), 3);
-  EXPECT_DOUBLE_EQ(distance_between({0, 1, 2}, {2, 1, 0}), 0);
-  EXPECT_DOUBLE_EQ(distance_between({0, 1, 2}, {3, 5, 4}), 3);
-  EXPECT_DOUBLE_EQ(distance_between({0, 10}, {0, 0, 0, 10}), 2.5);
-  EXPECT_DOUBLE_EQ(distance_between({0, 0, 0, 10}, {0, 10}), 2.5);
-  EXPECT_DOUBLE_EQ(distance_between({-1, 1}, {0}), 1);
-  EXPECT_EQ(distance_between({0, std::nan("")}, {0}), std::numeric_limits<double>::infinity());
+/// Returns the error of a normal distribution shifted by so many standard deviations, in closed
+/// form: the mean of |N(shift, 2)| less that of |N(0, 2)|, over the latter.
+double normal_error(double shift) {
+  const double spread = 2 / std::sqrt(std::numbers::pi);
+  return (spread * std::exp(-shift * shift / 4) + shift * std::erf(shift / 2) - spread) / spread;
 }
 
-TEST(Errors, OfEqualDistributionsAreAboutOne) {
-  for (const std::size_t samples : {std::size_t{1}, std::size_t{30}}) {
-    const Trials same = run_trials(samples, 0);
-    std::printf("%zu samples a run: %.2f, above 1 in %.2f\n", samples, same.mean, same.above);
-    EXPECT_GT(same.mean, 0.5);
-    EXPECT_LT(same.mean, 1.5);
+TEST(Errors, DistanceIsTheMeanMotionOfSamples) {
+  using Samples = std::vector<double>;
+  EXPECT_DOUBLE_EQ(distance_between(Samples{1}, Samples{4}), 3);
+  EXPECT_DOUBLE_EQ(distance_between(Samples{0, 1, 2}, Samples{0, 1, 2}), 0);
+  EXPECT_DOUBLE_EQ(distance_between(Samples{0, 1, 2}, Samples{3, 4, 5}), 3);
+  EXPECT_DOUBLE_EQ(distance_between(Samples{0, 10}, Samples{0, 0, 0, 10}), 2.5);
+  EXPECT_DOUBLE_EQ(distance_between(Samples{0, 0, 0, 10}, Samples{0, 10}), 2.5);
+  EXPECT_DOUBLE_EQ(distance_between(Samples{-1, 1}, Samples{0}), 1);
+}
+
+/// Returns the share of `count` comparisons of two groups of equal runs in which they differ.
+double found_equal(const MakeRun& make, std::size_t seeds, int count) {
+  Random random(7);
+  std::vector<std::size_t> order(2 * seeds);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const RunDistances::Group all(order);
+  double differ = 0;
+  for (int i = 0; i < count; ++i) {
+    const RunDistances distances(runs(random, make, 2 * seeds));
+    differ += distances.compare(all.first(seeds), all.subspan(seeds)).differs() ? 1.0 / count : 0;
+  }
+  std::printf("%zu seeds: %.3f of %d comparisons find a difference\n", seeds, differ, count);
+  return differ;
+}
+
+TEST(Errors, OfEqualSettingsAreFoundAtTheStatedRate) {
+  EXPECT_NEAR(found_equal(correlated(4), kSeeds, 2000), kFalsePositives, 0.02);
+  EXPECT_NEAR(found_equal(normal(0), kSeeds, 2000), kFalsePositives, 0.02);
+  EXPECT_NEAR(found_equal(normal(0), 24, 500), kFalsePositives, 0.03);  // three deviations
+}
+
+TEST(Errors, OfEqualDiscreteOrConstantFiguresAreFoundAtTheStatedRateAtMost) {
+  const double rate = found_equal(discrete, kSeeds, 2000);
+  EXPECT_LE(rate, kFalsePositives + 0.02);
+  EXPECT_GE(rate, kFalsePositives - 0.03);
+  const MakeRun constant = [](Random&) { return Facts{{{"pieces", {3}}}, ""}; };
+  EXPECT_EQ(found_equal(constant, kSeeds, 10), 0);
+}
+
+TEST(Errors, OfEqualSettingsHaveAMeanOfZeroForAnyNumberOfSeeds) {
+  for (const std::size_t seeds : {kSeeds, 3 * kSeeds})
+    EXPECT_NEAR(run_trials(correlated(4), correlated(4), seeds, 60).error, 0, 0.03);
+}
+
+TEST(Errors, ConvergeToAFixedValueWhilePowerGrowsWithTheSeeds) {
+  const double truth = normal_error(1);
+  const Trials few = run_trials(normal(1), normal(0), kSeeds, 100, truth);
+  const Trials more = run_trials(normal(1), normal(0), 2 * kSeeds, 100, truth);
+  const Trials many = run_trials(normal(1), normal(0), 6 * kSeeds, 50, truth);
+  EXPECT_GT(more.differ, few.differ + 0.1);
+  EXPECT_GT(many.differ, 0.95);
+  EXPECT_LT(many.deviation, few.deviation / 2);
+  EXPECT_NEAR(few.error, truth, 0.12);
+  EXPECT_NEAR(many.error, truth, 0.06);
+}
+
+TEST(Errors, OfOneFigureAmongSixteenAreFound) {
+  EXPECT_GT(run_trials(correlated(16, 3), correlated(16), kSeeds, 30).differ, 0.9);
+}
+
+TEST(Errors, SeeADifferenceInScatterAlone) {
+  const Trials wider = run_trials(normal(0, 5), normal(0), 2 * kSeeds, 50);
+  EXPECT_GT(wider.differ, 0.9);
+  EXPECT_GT(wider.error, 0.3);
+}
+
+TEST(Errors, OfAFallInHalfOfTheSeedsAreAQuarterOfThoseOfACertainFall) {
+  const auto falls = [](double chance) -> MakeRun {
+    return [chance](Random& random) {
+      return Facts{{{"surface in place share", {random.uniform() < chance ? 0.5 : 1.0}}}, ""};
+    };
+  };
+  const Trials certain = run_trials(falls(1), falls(0), kSeeds, 10);
+  const Trials half = run_trials(falls(0.5), falls(0), 3 * kSeeds, 60);
+  EXPECT_NEAR(certain.error, 50, 1e-9);  // half of the surface, in units of 1 %
+  EXPECT_NEAR(half.error, 12.5, 2);      // half of 50, less half of the scatter among these runs
+}
+
+TEST(Errors, IntervalsCoverTheError) {
+  for (const double shift : {1.0, 3.0}) {
+    const Trials found = run_trials(normal(shift), normal(0), 16, 200, normal_error(shift));
+    EXPECT_GE(found.covered, 0.8) << shift;  // 0.9 for many seeds
+    EXPECT_LE(found.covered, 0.97) << shift;
   }
 }
 
-TEST(Errors, GrowWithTheShift) {
-  const double at_8 = run_trials(1, 8).mean, at_16 = run_trials(1, 16).mean,
-               at_32 = run_trials(1, 32).mean;
-  EXPECT_GT(at_8, 5);
-  EXPECT_NEAR(at_16 / at_8, 2, 0.01);
-  EXPECT_NEAR(at_32 / at_16, 2, 0.01);
+TEST(Errors, OfConstantQuantitiesAreInUnitsOfTheNoiseFloor) {
+  const std::vector<Facts> limit(kSeeds, Facts{{{"penetration p99 m", {1e-6}}}, ""});
+  const std::vector<Facts> point(kSeeds, Facts{{{"penetration p99 m", {3.001e-3}}}, ""});
+  const PointError found = point_error(point, limit);
+  ASSERT_EQ(found.figures.size(), 1u);
+  EXPECT_NEAR(found.figures[0].difference, 3e-3, 1e-12);
+  EXPECT_DOUBLE_EQ(found.figures[0].spread, 1e-3);
+  EXPECT_NEAR(found.error, 3, 1e-9);
+  EXPECT_EQ(found.largest(), &found.figures[0]);
+  EXPECT_DOUBLE_EQ(noise_floor("run-out m", 5), 0.05);
+  EXPECT_DOUBLE_EQ(noise_floor("pieces", 5), 1);
 }
 
-TEST(Errors, GrowWithTheRootOfTheNumberOfSeeds) {
-  const double ratio = run_trials(1, 8, 32).mean / run_trials(1, 8, 8).mean;
-  EXPECT_NEAR(ratio, 2, 0.4);  // square root of four times as many seeds
+TEST(Errors, LeaveOutQuantitiesThatARunLacks) {
+  const auto facts = [](const char* name, double sample) {
+    return Facts{{{name, {sample}}, {"pieces", {3}}}, ""};
+  };
+  const std::vector<Facts> limit = {facts("exit speed m/s", 10), facts("exit speed m/s", 10)};
+  const std::vector<Facts> point = {facts("exit speed m/s", 12), facts("drift m", 1)};
+  const PointError found = point_error(point, limit);
+  ASSERT_EQ(found.figures.size(), 1u);
+  EXPECT_EQ(found.figures[0].name, "pieces");
+  const std::vector<Facts> nothing(2);
+  EXPECT_EQ(point_error(nothing, nothing).figures.size(), 0u);
+  EXPECT_FALSE(point_error(nothing, nothing).differs());
 }
 
-Facts one(const std::string& name, std::vector<double> samples) {
-  return {{{name, std::move(samples)}}, ""};
-}
-
-TEST(Errors, OfConstantQuantitiesAreOverTheNoiseFloor) {
-  const std::vector<Facts> reference(kSeeds, one("penetration p99 m", {1e-6}));
-  const std::vector<Facts> point(kSeeds, one("penetration p99 m", {3.001e-3}));
-  const std::vector<TradeError> errors = trade_errors(point, reference);
-  ASSERT_EQ(errors.size(), 1u);
-  EXPECT_NEAR(errors[0].distance, 3e-3, 1e-12);
-  EXPECT_DOUBLE_EQ(errors[0].noise, 1e-3);
-  EXPECT_NEAR(worst(errors), 3, 1e-9);
-  const std::vector<double> far = {4, 6};
-  EXPECT_DOUBLE_EQ(noise_floor("run-out m", far), 0.05);
-  EXPECT_DOUBLE_EQ(noise_floor("pieces", far), 1);
-}
-
-TEST(Errors, LeaveOutQuantitiesThatOneSideLacks) {
-  const std::vector<Facts> reference = {one("exit speed m/s", {10}), one("drift m", {})};
-  const std::vector<Facts> point = {one("drift m", {1e-3}), one("pieces", {3})};
-  EXPECT_TRUE(trade_errors(point, reference).empty());
-  EXPECT_EQ(worst(trade_errors(point, reference)), 0);
-  const std::vector<Facts> fewer = {one("exit speed m/s", {12})};
-  EXPECT_NEAR(worst(trade_errors(fewer, reference)), 20, 1e-9);  // 2 m/s over 1 % of 10
+TEST(Errors, OfTooFewRunsAreNeverCertain) {
+  const PointError found = point_error(std::vector<Facts>(2, Facts{{{"pieces", {90}}}, ""}),
+                                       std::vector<Facts>(2, Facts{{{"pieces", {3}}}, ""}));
+  EXPECT_GT(found.error, 80);
+  EXPECT_GT(found.p, 0.25) << "a third of all permutations separate the groups";
 }
 
 }  // namespace

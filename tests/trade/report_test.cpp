@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/random.h"
 #include "engine/io/figures.h"
+#include "scenes/trade/equal.h"
 #include "scenes/trade/run_file.h"
 #include "tests/engine/markup.h"
 #include "tests/scenes/program.h"
@@ -89,7 +91,7 @@ const PointTrade& at(const Trade& trade, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-TEST(Merge, CostIsTheMedianOverSeedsAndErrorTheWorst) {
+TEST(Merge, CostIsTheMedianOverSeedsAndErrorTheMeanOverFigures) {
   const Folder folder;
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
@@ -100,8 +102,9 @@ TEST(Merge, CostIsTheMedianOverSeedsAndErrorTheWorst) {
   EXPECT_EQ(at(trade, "realtime").cost_ms, 5);
   EXPECT_EQ(at(trade, "realtime").wall_ms, 10);
   EXPECT_EQ(at(trade, "realtime").runs, 2);
-  EXPECT_EQ(at(trade, "realtime").errors.size(), 2u);
-  EXPECT_EQ(at(trade, "realtime").error, worst(at(trade, "realtime").errors));
+  ASSERT_EQ(at(trade, "realtime").compared->figures.size(), 2u);
+  EXPECT_NEAR(*at(trade, "realtime").error, 10, 1e-9) << "0.2 m over 1 %, and equal pieces";
+  EXPECT_EQ(at(trade, "realtime").compared->largest()->name, "drift, <b>\"largest\"</b> m");
   EXPECT_GT(*at(trade, "draft").error, *at(trade, "realtime").error);
   EXPECT_TRUE(at(trade, "draft").on_front);
   EXPECT_TRUE(at(trade, "realtime").on_front);
@@ -150,6 +153,62 @@ TEST(Merge, WithoutTheLimitThereAreNoErrors) {
   expect_well_formed(trade);
 }
 
+TEST(Merge, OneSeedHasNoError) {
+  const Folder folder;
+  Study study = small_study();
+  study.seeds = 1;
+  const auto runs = study_runs(study);
+  write_all(folder, runs);
+  const Trade trade = merge(runs, folder.path());
+  EXPECT_FALSE(at(trade, "draft").error.has_value());
+  EXPECT_EQ(at(trade, "draft").cost_ms, 1);
+  expect_well_formed(trade);
+}
+
+/// Returns the verdict on a limit of these two values by seed, which with twice the step is off by
+/// `off`. Values of equal settings are 0.1 m apart, on average.
+Convergence convergence_at(double off, int seeds) {
+  const Folder folder;
+  Study study = small_study();
+  study.seeds = seeds;
+  add_coarser_limits(study.points, study.set);
+  const auto runs = study_runs(study);
+  for (const StudyRun& run : runs) {
+    const double scatter = 0.3 * (run.seed * 37 % seeds) / seeds;
+    const bool coarser = run.point.name == kLimit2h;
+    write_run(folder.path(), run,
+              ran_of(run.point.is_limit() ? scatter : scatter + coarser * off, 1));
+  }
+  const Trade trade = merge(runs, folder.path());
+  EXPECT_FALSE(at(trade, kLimit2h).on_front) << "it is no choice";
+  expect_well_formed(trade);
+  return trade.scenes.at(0).limit;
+}
+
+TEST(Merge, ALimitConvergedIfItIsTheSameWithTwiceTheStep) {
+  EXPECT_EQ(convergence_at(0, 16), Convergence::kConverged);
+  EXPECT_EQ(convergence_at(0.3, 16), Convergence::kNoLimit);
+  EXPECT_EQ(convergence_at(0.15, 3), Convergence::kUndecided) << "three seeds prove nothing";
+  const Folder folder;
+  const auto runs = study_runs(small_study());
+  write_all(folder, runs);
+  EXPECT_EQ(merge(runs, folder.path()).scenes.at(0).limit, Convergence::kUnknown);
+}
+
+TEST(Merge, ErrorsBelowTheNoiseAreNoAdvantageOnTheFront) {
+  const Folder folder;
+  const auto runs = study_runs(small_study());
+  for (const StudyRun& run : runs) {
+    const std::string& point = run.point.name;
+    const double off = point == "draft" ? 0.0009 : point == "realtime" ? 0.0001 : 0;
+    write_run(folder.path(), run, ran_of(off, point == "draft" ? 1 : 5));
+  }
+  const Trade trade = merge(runs, folder.path());
+  EXPECT_GT(*at(trade, "draft").error, *at(trade, "realtime").error);
+  EXPECT_TRUE(at(trade, "draft").on_front);
+  EXPECT_FALSE(at(trade, "realtime").on_front);
+}
+
 TEST(Merge, AFailedPointHasAnInfiniteError) {
   const Folder folder;
   const auto runs = study_runs(small_study());
@@ -176,9 +235,9 @@ TEST(Report, CsvHasOneColumnPerError) {
   ASSERT_EQ(records.size(), 5u);
   const std::vector<std::string> first(records[0].begin(), records[0].begin() + 3);
   EXPECT_EQ(first, (std::vector<std::string>{"scene", "point", "preset"}));
-  EXPECT_EQ(records[0][12], "drift, <b>\"largest\"</b> m");
-  EXPECT_EQ(records[0][13], "pieces");
-  EXPECT_EQ(records[1][13], "0") << "as many pieces as the limit has";
+  EXPECT_EQ(records[0][16], "drift, <b>\"largest\"</b> m");
+  EXPECT_EQ(records[0][17], "pieces");
+  EXPECT_EQ(records[1][17], "0") << "as many pieces as the limit has";
   EXPECT_EQ(records[3][3], "solver.sweeps=4");
   EXPECT_EQ(records[4][7], "") << "the limit has no error";
 }
@@ -188,7 +247,8 @@ TEST(Report, TheTableHasTheUnitsOfItsFigures) {
   const auto runs = study_runs(small_study());
   write_all(folder, runs);
   const std::string table = trade_table(merge(runs, folder.path()));
-  EXPECT_NE(table.find("ms per frame  error/noise  cost/front  largest error\n"), std::string::npos)
+  EXPECT_NE(table.find("ms per frame   error   90 % interval      p  cost/front  largest error\n"),
+            std::string::npos)
       << table;
   EXPECT_NE(table.find("drift, <b>\"largest\"</b> 0.5 m\n"), std::string::npos) << table;
 }
@@ -201,9 +261,49 @@ TEST(Report, JsonHasTheFiguresOfTheStudy) {
   EXPECT_EQ(std::get<std::string>(figures.at("/scenes/0/points/1/name")), "realtime");
   EXPECT_EQ(std::get<double>(figures.at("/scenes/0/points/1/cost_ms")), 5);
   EXPECT_EQ(std::get<bool>(figures.at("/scenes/0/points/2/on_front")), false);
-  EXPECT_TRUE(figures.contains("/scenes/0/points/1/errors/0/over_noise"));
+  EXPECT_EQ(std::get<std::string>(figures.at("/scenes/0/limit")), "unknown");
+  for (const char* key : {"difference", "spread", "error", "p"})
+    EXPECT_TRUE(figures.contains(std::string("/scenes/0/points/1/errors/0/") + key)) << key;
+  for (const char* key : {"error", "error_low", "error_high", "p", "differs"})
+    EXPECT_TRUE(figures.contains(std::string("/scenes/0/points/1/") + key)) << key;
   EXPECT_FALSE(figures.contains("/scenes/0/points/3/error"));
   EXPECT_EQ(std::get<std::int64_t>(figures.at("/runs")), 8);
+}
+
+TEST(Equal, GroupsOfOnePointAreComparedWithoutReuseOfRuns) {
+  const Folder folder;
+  Study study = small_study();
+  study.points = {{"realtime", "realtime", {}}};
+  study.seeds = 16;
+  const auto runs = study_runs(study);
+  for (const StudyRun& run : runs)  // half of the runs are far off, but not by their settings
+    write_run(folder.path(), run, ran_of(run.seed % 2, 1));
+  std::filesystem::remove(folder / "runs/stack/realtime-16.json");
+  const EqualStudy found = compare_equal(runs, folder.path(), 7, 300);
+  ASSERT_EQ(found.points.size(), 1u);
+  EXPECT_EQ(found.missing, std::vector<std::string>{"stack/realtime-16"});
+  EXPECT_EQ(found.points[0].runs, 15);
+  EXPECT_EQ(found.points[0].pairs, 300);
+  EXPECT_LE(found.points[0].differ, 0.07 * 300);
+  EXPECT_GT(found.points[0].largest_error, 0);
+  const Figures figures = parse_figures(equal_json(found), "equal.json");
+  EXPECT_EQ(std::get<std::int64_t>(figures.at("/points/0/pairs")), 300);
+  EXPECT_EQ(compare_equal(runs, folder.path(), 8, 300).points[0].pairs, 0) << "15 runs are too few";
+}
+
+TEST(Equal, DifferencesOfGroupsAreCounted) {
+  const Folder folder;
+  Study study = small_study();
+  study.points = {{"realtime", "realtime", {}}};
+  study.seeds = 400;
+  const auto runs = study_runs(study);
+  for (const StudyRun& run : runs)
+    write_run(folder.path(), run,
+              ran_of(Random(static_cast<std::uint64_t>(run.seed)).uniform(), 1));
+  const EqualPoint all = compare_equal(runs, folder.path(), 8, 25).points.at(0);
+  EXPECT_NEAR(all.mean_error, 0, 0.05);
+  const EqualPoint many = compare_equal(runs, folder.path(), 8, 1000).points.at(0);
+  EXPECT_NEAR(many.differ / 1000.0, kFalsePositives, 0.02);
 }
 
 TEST(Report, ThePageLoadsNoOtherFile) {

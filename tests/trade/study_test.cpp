@@ -2,8 +2,10 @@
 #include "scenes/trade/study.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -12,6 +14,7 @@
 #include "engine/base/check.h"
 #include "scenes/file/schema.h"
 #include "scenes/file/text_file.h"
+#include "scenes/load.h"
 #include "scenes/trade/run_file.h"
 #include "tests/scenes/program.h"
 
@@ -115,6 +118,111 @@ TEST(Points, ASwitchIsTriedAtEveryPreset) {
   EXPECT_EQ(points[12].name, "draft+limits.dust=0");
   EXPECT_EQ(points[12].set, std::vector<std::string>{"limits.dust=0"});
   EXPECT_EQ(refusal([&] { add_switch(points, "dust"); }), "--switch dust: expected KEY=VALUE");
+}
+
+TEST(Points, TheLimitIsAlsoRunWithLongerSteps) {
+  std::vector<StudyPoint> points = parse_points(
+      "draft draft\nlimit reference accuracy.dt_s=0.0020833333333333333 solver.sweeps=8\n", "");
+  add_coarser_limits(points, {});
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_TRUE(points.back().is_limit());
+  EXPECT_EQ(points[1].name, "limit_4h");
+  EXPECT_EQ(points[2].name, "limit_2h");
+  Study given = study(1);
+  given.points = points;
+  const std::vector<StudyRun> runs = study_runs(given);
+  for (const auto& [run, steps] : {std::pair(1, 120), {2, 240}, {3, 480}}) {
+    const Scene scene = load_scene(runs[static_cast<std::size_t>(run)]);
+    EXPECT_NEAR(scene.accuracy.dt_s, 1.0 / steps, 1e-9);
+    EXPECT_EQ(scene.solver.sweeps, 8);
+  }
+  add_coarser_limits(points, {});
+  EXPECT_EQ(points.size(), 4u) << "they are there";
+}
+
+TEST(Points, NoLimitHasStepsLongerThanAFrame) {
+  std::vector<StudyPoint> points = parse_points("draft draft\nlimit accurate\n", "");
+  add_coarser_limits(points, {});
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[1].name, "limit_2h");
+  points = parse_points("draft draft\nlimit accurate\n", "");
+  add_coarser_limits(points, {"accuracy.dt_s=0.016666666666666666"});
+  EXPECT_EQ(points.size(), 2u);
+}
+
+TEST(Runs, LimitsHaveSeedsOfTheirOwn) {
+  Study given = study(8);
+  given.scenes = {"stack"};
+  add_coarser_limits(given.points, given.set);
+  std::map<std::string, std::set<std::uint64_t>> seeds;
+  for (const StudyRun& run : study_runs(given)) {
+    const std::uint64_t seed = load_scene(run).seed;
+    EXPECT_EQ(seed, static_cast<std::uint64_t>(run.scene_seed()));
+    seeds[run.point.is_limit() || run.point.is_coarser_limit() ? run.point.name : "points"].insert(
+        seed);
+  }
+  ASSERT_EQ(seeds.size(), 4u);
+  std::set<std::uint64_t> all;
+  for (const auto& [name, of_point] : seeds) {
+    EXPECT_EQ(of_point.size(), 8u) << name;
+    all.insert(of_point.begin(), of_point.end());
+  }
+  EXPECT_EQ(all.size(), 4u * 8u) << "no run of a limit has the seed of another";
+}
+
+/// Returns a scene of a ball that is shot at a box, in steps of 1/120 s.
+Scene shot_scene() {
+  return parse_scene(
+      "[scene]\ndescription = \"x\"\nduration_s = 2\n[[solid]]\nstructure = \"box\"\nmaterial = "
+      "\"wood\"\n[script]\n[[script.shot]]\ntime_s = 0.1\nfrom = [0, 0.5, 4]\nat = [0, 0.5, 0]\n"
+      "speed_m_s = 20\nradius_m = 0.1\n",
+      "shot.toml", {"realtime", {}});
+}
+
+TEST(Phase, EachSeedShiftsTheStartAndTheEventsInRelationToTheSteps) {
+  constexpr int kCount = 64;
+  std::vector<double> starts, events;
+  for (int seed = 1; seed <= kCount; ++seed) {
+    const auto source = make_shifted_simulation(shot_scene(), seed);
+    std::vector<double> times_s;
+    for (int i = 0; i < 20; ++i) times_s.push_back(source->next()->time_s);
+    double event = 0;
+    for (std::size_t i = 1; i < times_s.size(); ++i) {
+      const double longer = 60 * (times_s[i] - times_s[i - 1]) - 1;
+      if (i == 1) {
+        starts.push_back(longer);
+      } else if (longer > 1e-6) {
+        EXPECT_GE(times_s[i - 1], 0.1 - 1e-9) << "the first frame after the shot";
+        EXPECT_LT(times_s[i - 1], 0.1 + 1.0 / 60);
+        EXPECT_EQ(event, 0) << "there is one event";
+        event = longer;
+      } else {
+        EXPECT_NEAR(longer, 0, 1e-6);
+      }
+    }
+    events.push_back(event);
+  }
+  for (std::vector<double>* phases : {&starts, &events}) {
+    std::ranges::sort(*phases);
+    for (int i = 0; i < kCount; ++i)  // uniform: no farther off than 1 of 1000 samples would be
+      EXPECT_NEAR((*phases)[static_cast<std::size_t>(i)], (i + 0.5) / kCount, 0.25);
+  }
+}
+
+TEST(Phase, AShotMeetsItsTargetAtAnyPartOfAStep) {
+  std::set<int> tenths;
+  for (int seed = 1; seed <= 64; ++seed) {
+    const auto source = make_shifted_simulation(shot_scene(), seed);
+    double steps_left = 0;  // from the end of the tenth frame to the impact
+    for (int i = 0; i <= 10; ++i) {
+      const FramePtr frame = source->next();
+      for (const FrameBody& body : frame->bodies)
+        if (body.velocity_W.z() < -19) steps_left = (body.X_WB.position.z() - 0.6) / 20 * 120;
+    }
+    ASSERT_GT(steps_left, 0);
+    tenths.insert(static_cast<int>(10 * (steps_left - std::floor(steps_left))));
+  }
+  EXPECT_EQ(tenths.size(), 10u);
 }
 
 TEST(Runs, PointsAlternateWithinASeedAndEveryRunHasItsName) {

@@ -18,9 +18,11 @@ namespace fs = std::filesystem;
 
 const std::string kPile = SUNDER_ROOT "/bench/trade/scenes/pile.toml";
 
-/// Returns the options of a study of three points and two seeds: six runs per scene.
+/// Returns the options of a study of three points and two seeds: six runs per scene. Steps of the
+/// limit are as long as a frame, so that no coarser limit is added.
 std::string small_study(const Folder& folder) {
-  std::ofstream(folder / "points.txt") << "draft draft\nrealtime realtime\nlimit accurate\n";
+  std::ofstream(folder / "points.txt")
+      << "draft draft\nrealtime realtime\nlimit draft accuracy.substeps=16\n";
   return kPile + " --points " + folder / "points.txt" + " --seeds 2 --frames 20 --quiet ";
 }
 
@@ -50,7 +52,8 @@ TEST(Trade, WrongUseExitsWithTwoAndSaysWhy) {
         "trade stack --seeds 0" + to, "trade stack --shard 3/2" + to,
         "trade stack --merge --shard 1/2" + to, "trade stack --points nowhere.txt" + to,
         "trade stack --points " + folder / "bad.txt" + to, "trade stack --set nothing=1" + to,
-        "trade stack --switch dust" + to}) {
+        "trade stack --switch dust" + to, "trade stack --pool 8" + to, "trade stack --equal 0" + to,
+        "trade stack --equal 9 --seeds 1" + to, "trade stack --equal 9 --seeds 4 --pool 7" + to}) {
     const Outcome outcome = sunder(wrong);
     EXPECT_EQ(outcome.exit_code, 2) << wrong << "\n" << outcome.err;
     EXPECT_NE(outcome.err, "") << wrong;
@@ -60,9 +63,9 @@ TEST(Trade, WrongUseExitsWithTwoAndSaysWhy) {
 
 TEST(Trade, ListsItsRunsAndEveryShare) {
   const auto all = lines_of(sunder("trade stack --seeds 2 --list").out);
-  ASSERT_EQ(all.size(), 26u);
+  ASSERT_EQ(all.size(), 30u);
   EXPECT_EQ(all[0], "stack/draft-1  draft scene.seed=1");
-  EXPECT_EQ(all[15], "stack/60x4-2  draft accuracy.substeps=4 scene.seed=2");
+  EXPECT_EQ(all[17], "stack/60x4-2  draft accuracy.substeps=4 scene.seed=2");
   std::multiset<std::string> shared;
   for (const char* shard : {"1/3", "2/3", "3/3"}) {
     for (const std::string& line :
@@ -118,6 +121,25 @@ TEST(Trade, SharesMakeTheFilesOfTheWholeAndAreMerged) {
   EXPECT_EQ(markup_mistake(scenes::read_text(fs::path(shared) / "pile.svg")), "");
 }
 
+TEST(Trade, ComparesGroupsOfEqualRuns) {
+  const Folder folder;
+  const std::string equal = kPile + " --equal 20 --seeds 2 --frames 20 ";
+  const auto list = lines_of(sunder("trade " + equal + "--list").out);
+  ASSERT_EQ(list.size(), 8u) << "four times the seeds";
+  EXPECT_EQ(list[7], "pile/realtime-8  realtime scene.seed=8");
+  const std::string to = "-o " + folder / "out";
+  const Outcome part = sunder("trade " + equal + "--pool 4 --shard 1/2 --quiet " + to);
+  EXPECT_EQ(part.exit_code, 0) << part.err;
+  const Outcome gaps = sunder("trade " + equal + "--pool 4 --merge " + to);
+  EXPECT_EQ(gaps.exit_code, 1);
+  EXPECT_NE(gaps.err.find("missing: pile/realtime-2\n"), std::string::npos) << gaps.err;
+  const Outcome whole = sunder("trade " + equal + "--pool 4 --json - " + to);
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_NE(whole.out.find("\"pairs\": 20"), std::string::npos) << whole.out;
+  EXPECT_NE(whole.out.find("\"differ\": 0"), std::string::npos) << "two runs are never certain";
+  EXPECT_EQ(scenes::read_text(folder / "out/equal.json"), whole.out);
+}
+
 TEST(Trade, AFinishedRunIsNotRepeatedUnlessItIsOfAnotherStudy) {
   const Folder folder;
   const std::string study = small_study(folder) + "-o " + folder / "out ";
@@ -130,7 +152,7 @@ TEST(Trade, AFinishedRunIsNotRepeatedUnlessItIsOfAnotherStudy) {
 
   fs::resize_file(folder / "out/runs/pile/limit-1.json", 50);
   std::ofstream(folder / "points.txt") << "draft draft\nrealtime realtime ground.friction=0.3\n"
-                                          "limit accurate\n";
+                                          "limit draft accuracy.substeps=16\n";
   const Outcome other = sunder("trade " + study);
   EXPECT_EQ(other.exit_code, 0);
   const auto said = lines_of(other.err);
