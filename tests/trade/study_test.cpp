@@ -325,6 +325,18 @@ TEST(RunFile, OfAnotherStudyIsDoneAgain) {
   EXPECT_EQ(changed([](StudyRun& run) { run.set.pop_back(); }), other);
 }
 
+TEST(RunFile, WithoutShiftedStepsIsDoneAgain) {
+  const Folder folder;
+  write_run(folder.path(), short_run(), some_facts());
+  const std::string file = folder / "runs/stack/draft-1.json";
+  std::string text = read_text(file);
+  const std::string key = "\"steps\": \"shifted by the seed\"";
+  const std::size_t at = text.find(key);
+  ASSERT_NE(at, std::string::npos) << text;
+  std::ofstream(file) << text.replace(at, key.size(), "\"steps\": \"\"");
+  EXPECT_EQ(read_run(folder.path(), short_run()).missing, "belongs to another study");
+}
+
 TEST(RunFile, TruncatedOrWithoutItsTimesIsDoneAgain) {
   const Folder folder;
   write_run(folder.path(), short_run(), some_facts());
