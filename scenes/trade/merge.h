@@ -28,7 +28,8 @@ struct PointTrade {
   std::optional<double> over_front;  ///< Cost divided by that of the front at equal error.
 };
 
-/// Whether the limit depends on its step, by the error of the limit with steps of twice the length.
+/// Verdict on whether the limit depends on its step, by the error of the limit with steps of twice
+/// the length.
 enum class Convergence {
   kUnknown,    ///< There are no such runs.
   kConverged,  ///< The error is at most kConvergedError, at a confidence of 95 %.
