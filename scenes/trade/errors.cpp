@@ -120,24 +120,29 @@ PointError RunDistances::compare(Group point, Group limit) const {
   std::vector<std::size_t> runs(point.begin(), point.end());
   runs.insert(runs.end(), limit.begin(), limit.end());
   PointError found;
-  std::vector<DistanceMatrix> matrices;
+  std::vector<DistanceMatrix> tested;
+  std::vector<std::size_t> figure_of;  // indices of the figures that are tested
   DistanceMatrix all(runs.size());  // scaled by the spread of both groups, so that they are equal
   for (const Figure* figure : shared_figures(point, limit)) {
     FigureError error{figure->name, difference(figure->distances, point, limit),
                       scale(*figure, limit)};
     error.error = error.difference / error.spread;
+    DistanceMatrix distances = figure->distances.part(runs);
+    const double of_all = scale(*figure, runs);
+    all.add(distances, 1 / of_all);
+    if (distances.largest() > of_all) {  // or else all runs are within the noise floor
+      figure_of.push_back(found.figures.size());
+      tested.push_back(std::move(distances));
+    }
     found.figures.push_back(std::move(error));
-    all.add(matrices.emplace_back(figure->distances.part(runs)), 1 / scale(*figure, runs));
   }
-  if (found.figures.empty()) return found;
-  matrices.push_back(std::move(all));
-  const std::vector<double> p = permutation_p(matrices, point.size());
-  found.p = std::ranges::min(p);
   const auto count = static_cast<double>(found.figures.size());
-  for (std::size_t i = 0; i < found.figures.size(); ++i) {
-    found.figures[i].p = p[i];
-    found.error += found.figures[i].error / count;
-  }
+  for (const FigureError& error : found.figures) found.error += error.error / count;
+  if (tested.empty()) return found;
+  tested.push_back(std::move(all));
+  const std::vector<double> p = permutation_p(tested, point.size());
+  found.p = std::ranges::min(p);
+  for (std::size_t i = 0; i < figure_of.size(); ++i) found.figures[figure_of[i]].p = p[i];
   return found;
 }
 

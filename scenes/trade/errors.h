@@ -65,7 +65,8 @@ class RunDistances {
   explicit RunDistances(std::span<const Facts> runs);
 
   /// Compares a group of at least two runs with another, that of the limit, and leaves out the
-  /// confidence interval. A quantity counts if all of these runs have samples of it.
+  /// confidence interval. A quantity counts if all of these runs have samples of it; p is 1 for one
+  /// in which all of these runs are equal but for the noise floor.
   PointError compare(Group point, Group limit) const;
   /// Returns the confidence interval of the error, by runs drawn with replacement.
   Interval interval(Group point, Group limit) const;

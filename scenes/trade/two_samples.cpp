@@ -79,6 +79,8 @@ void DistanceMatrix::add(const DistanceMatrix& other, double factor) {
   for (std::size_t i = 0; i < values_.size(); ++i) values_[i] += factor * other.values_[i];
 }
 
+double DistanceMatrix::largest() const { return std::ranges::max(values_); }
+
 DistanceMatrix DistanceMatrix::part(std::span<const std::size_t> runs) const {
   DistanceMatrix found(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i)

@@ -32,6 +32,8 @@ class DistanceMatrix {
   }
   /// Adds another matrix of as many runs, times a factor.
   void add(const DistanceMatrix& other, double factor);
+  /// Returns the largest distance of two runs.
+  double largest() const;
   /// Returns the matrix of some of the runs, in this order.
   DistanceMatrix part(std::span<const std::size_t> runs) const;
 

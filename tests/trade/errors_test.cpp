@@ -194,6 +194,19 @@ TEST(Errors, OfConstantQuantitiesAreInUnitsOfTheNoiseFloor) {
   EXPECT_DOUBLE_EQ(noise_floor("pieces", 5), 1);
 }
 
+TEST(Errors, BelowTheNoiseFloorAreNoDifferenceHoweverCertain) {
+  const auto facts = [](double drift_m, std::size_t count) {
+    return std::vector<Facts>(count, Facts{{{"drift m", {drift_m}}, {"pieces", {3}}}, ""});
+  };
+  const PointError below = point_error(facts(0.0109, kSeeds), facts(0.01, kSeeds));
+  EXPECT_FALSE(below.differs()) << "0.9 mm";
+  EXPECT_GT(below.error, 0);
+  const PointError above = point_error(facts(0.0111, kSeeds), facts(0.01, kSeeds));
+  EXPECT_TRUE(above.differs()) << "1.1 mm";
+  EXPECT_TRUE(above.figures[0].differs());
+  EXPECT_FALSE(above.figures[1].differs());
+}
+
 TEST(Errors, LeaveOutQuantitiesThatARunLacks) {
   const auto facts = [](const char* name, double sample) {
     return Facts{{{name, {sample}}, {"pieces", {3}}}, ""};
