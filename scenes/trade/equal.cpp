@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "engine/base/random.h"
 #include "engine/io/figures.h"
@@ -12,23 +13,6 @@
 
 namespace sunder::scenes {
 namespace {
-
-/// Runs of a point on one scene that did not fail.
-struct Pool {
-  EqualPoint found;
-  std::vector<Facts> facts;
-};
-
-Pool& find_or_add(std::vector<Pool>& pools, const StudyRun& run) {
-  const auto at = std::ranges::find_if(pools, [&](const Pool& pool) {
-    return pool.found.scene == run.scene && pool.found.point.name == run.point.name;
-  });
-  if (at != pools.end()) return *at;
-  Pool& added = pools.emplace_back();
-  added.found.scene = run.scene;
-  added.found.point = run.point;
-  return added;
-}
 
 /// Deals runs in random order, and all of them before one again.
 class Dealer {
@@ -51,12 +35,15 @@ class Dealer {
   Random random_{1};
 };
 
-void compare(Pool& pool, std::size_t seeds, int pairs) {
-  EqualPoint& found = pool.found;
-  found.runs = static_cast<int>(pool.facts.size());
-  if (pool.facts.size() < 2 * seeds) return;
-  const RunDistances distances(pool.facts);
-  Dealer dealer(pool.facts.size());
+EqualPoint compare(const std::string& scene, const PointRuns& point, std::size_t seeds, int pairs) {
+  EqualPoint found;
+  found.scene = scene;
+  found.point = point.point;
+  found.runs = static_cast<int>(point.facts.size());
+  found.failed = point.failed;
+  if (point.facts.size() < 2 * seeds) return found;
+  const RunDistances distances(point.facts);
+  Dealer dealer(point.facts.size());
   for (found.pairs = 0; found.pairs < pairs; ++found.pairs) {
     const std::span<const std::size_t> runs = dealer.deal(2 * seeds);
     const PointError error = distances.compare(runs.first(seeds), runs.subspan(seeds));
@@ -64,6 +51,7 @@ void compare(Pool& pool, std::size_t seeds, int pairs) {
     found.mean_error += error.error / pairs;
     found.largest_error = std::max(found.largest_error, error.error);
   }
+  return found;
 }
 
 double share(int count, int of) { return of > 0 ? static_cast<double>(count) / of : 0; }
@@ -72,25 +60,14 @@ double share(int count, int of) { return of > 0 ? static_cast<double>(count) / o
 
 EqualStudy compare_equal(const std::vector<StudyRun>& runs, const std::filesystem::path& folder,
                          int seeds, int pairs) {
+  StudyRuns stored = read_runs(runs, folder);
   EqualStudy study;
   study.seeds = seeds;
   study.runs = runs.size();
-  std::vector<Pool> pools;
-  for (const StudyRun& run : runs) {
-    Pool& pool = find_or_add(pools, run);
-    const StoredRun stored = read_or_list(run, folder, study.missing);
-    if (!stored.missing.empty()) continue;
-    const RunResult& result = stored.ran.result;
-    if (result.failed.empty()) {
-      pool.facts.push_back(result.facts);
-    } else if (pool.found.failed.empty()) {
-      pool.found.failed = "seed " + std::to_string(run.seed) + ": " + result.failed;
-    }
-  }
-  for (Pool& pool : pools) {
-    compare(pool, static_cast<std::size_t>(seeds), pairs);
-    study.points.push_back(std::move(pool.found));
-  }
+  study.missing = std::move(stored.missing);
+  for (const SceneRuns& scene : stored.scenes)
+    for (const PointRuns& point : scene.points)
+      study.points.push_back(compare(scene.scene, point, static_cast<std::size_t>(seeds), pairs));
   return study;
 }
 

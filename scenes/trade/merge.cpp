@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/io/statistics.h"
 #include "scenes/trade/front.h"
+#include "scenes/trade/run_file.h"
 
 namespace sunder::scenes {
 namespace {
-
-/// Existing runs of a point on one scene.
-struct PointRuns {
-  StudyPoint point;
-  std::vector<Facts> facts;  ///< Facts of the runs that did not fail.
-  std::vector<double> cpu_ms, wall_ms;
-  std::string failed;
-};
-
-struct SceneRuns {
-  std::string scene;
-  std::vector<PointRuns> points;
-};
 
 PointRuns& find_or_add(std::vector<SceneRuns>& scenes, const StudyRun& run) {
   if (scenes.empty() || scenes.back().scene != run.scene) scenes.push_back({run.scene, {}});
@@ -55,8 +44,8 @@ void find_front(std::vector<PointTrade>& trades) {
   for (PointTrade& trade : trades) {
     if (trade.point.is_limit() || trade.point.is_coarser_limit()) continue;
     if (!trade.error || !std::isfinite(*trade.error)) continue;
-    points.push_back({trade.point.name, trade.point.is_preset(), trade.cost_ms,
-                      std::max(*trade.error, kLeastError)});
+    points.push_back(
+        {trade.point.name, trade.point.is_preset(), trade.cost_ms, trade.counted_error()});
     trade_at.push_back(&trade);
   }
   for (const std::size_t i : pareto_front(points)) trade_at[i]->on_front = true;
@@ -103,22 +92,15 @@ const char* name_of(Convergence convergence) {
   return "";
 }
 
-StoredRun read_or_list(const StudyRun& run, const std::filesystem::path& folder,
-                       std::vector<std::string>& missing) {
-  StoredRun stored = read_run(folder, run);
-  if (!stored.missing.empty())
-    missing.push_back(run.name() + (stored.damaged ? " (" + stored.missing + ")" : ""));
-  return stored;
-}
-
-Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder) {
-  Trade trade;
-  trade.runs = runs.size();
-  std::vector<SceneRuns> scenes;
+StudyRuns read_runs(const std::vector<StudyRun>& runs, const std::filesystem::path& folder) {
+  StudyRuns study;
   for (const StudyRun& run : runs) {
-    PointRuns& found = find_or_add(scenes, run);
-    const StoredRun stored = read_or_list(run, folder, trade.missing);
-    if (!stored.missing.empty()) continue;
+    PointRuns& found = find_or_add(study.scenes, run);
+    const StoredRun stored = read_run(folder, run);
+    if (!stored.missing.empty()) {
+      study.missing.push_back(run.name() + (stored.damaged ? " (" + stored.missing + ")" : ""));
+      continue;
+    }
     const RunResult& result = stored.ran.result;
     found.cpu_ms.push_back(stored.ran.time.cpu_ms);
     found.wall_ms.push_back(stored.ran.time.wall_ms);
@@ -128,8 +110,18 @@ Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& fold
       found.failed = "seed " + std::to_string(run.seed) + ": " + result.failed;
     }
   }
-  for (const SceneRuns& scene : scenes) trade.scenes.push_back(evaluate(scene));
+  return study;
+}
+
+Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder) {
+  StudyRuns study = read_runs(runs, folder);
+  Trade trade;
+  trade.runs = runs.size();
+  trade.missing = std::move(study.missing);
+  for (const SceneRuns& scene : study.scenes) trade.scenes.push_back(evaluate(scene));
   return trade;
 }
+
+double PointTrade::counted_error() const { return std::max(*error, kLeastError); }
 
 }  // namespace sunder::scenes

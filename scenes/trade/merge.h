@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scenes/trade/errors.h"
-#include "scenes/trade/run_file.h"
 #include "scenes/trade/study.h"
 
 namespace sunder::scenes {
@@ -26,6 +25,10 @@ struct PointTrade {
   std::string failed;  ///< Reason of the first failure; empty if no run failed.
   bool on_front = false;
   std::optional<double> over_front;  ///< Cost divided by that of the front at equal error.
+
+  /// Returns the error, at least kLeastError, by which points are plotted and the front is found.
+  /// There must be an error.
+  double counted_error() const;
 };
 
 /// Verdict on whether the limit depends on its step, by the error of the limit with steps of twice
@@ -56,10 +59,27 @@ struct Trade {
   std::size_t runs = 0;              ///< Number of runs of the study.
 };
 
-/// Reads a run, and adds its name to the list if it must be done, with the reason if a file exists.
-StoredRun read_or_list(const StudyRun& run, const std::filesystem::path& folder,
-                       std::vector<std::string>& missing);
+/// Existing runs of a point on one scene.
+struct PointRuns {
+  StudyPoint point;
+  std::vector<Facts> facts;  ///< Facts of the runs that did not fail.
+  std::vector<double> cpu_ms, wall_ms;
+  std::string failed;  ///< Reason of the first failure; empty if no run failed.
+};
+
+struct SceneRuns {
+  std::string scene;
+  std::vector<PointRuns> points;
+};
+
+struct StudyRuns {
+  std::vector<SceneRuns> scenes;
+  std::vector<std::string> missing;  ///< As in Trade.
+};
+
 /// Reads the runs of a study from its folder.
+StudyRuns read_runs(const std::vector<StudyRun>& runs, const std::filesystem::path& folder);
+/// Reads the runs of a study from its folder, and compares each point with the limit.
 Trade merge(const std::vector<StudyRun>& runs, const std::filesystem::path& folder);
 
 }  // namespace sunder::scenes

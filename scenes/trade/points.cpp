@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/base/check.h"
+#include "engine/model/checks/ranges.h"
 #include "scenes/file/schema.h"
 #include "scenes/trade/grid.h"
 
@@ -120,12 +121,11 @@ void add_switch(std::vector<StudyPoint>& points, const std::string& assignment) 
 }
 
 void add_coarser_limits(std::vector<StudyPoint>& points, const std::vector<std::string>& set) {
-  constexpr double kLongestStep_s = 1.0 / 60 * (1 + 1e-9);
   const StudyPoint limit = points.back();
   const double dt_s = step_of(limit, set);
   for (const auto& [name, factor] : {std::pair(kLimit4h, 4.0), {kLimit2h, 2.0}}) {
     const double step_s = factor * dt_s;
-    if (!(step_s > 0 && step_s <= kLongestStep_s)) continue;
+    if (!(step_s > 0 && step_s <= ranges::kFileStep_s.high)) continue;
     if (std::ranges::find(points, name, &StudyPoint::name) != points.end()) continue;
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, step_s).ptr;

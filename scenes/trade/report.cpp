@@ -114,15 +114,16 @@ std::string trade_csv(const Trade& trade) {
   csv += "\n";
   for (const SceneTrade& scene : trade.scenes) {
     for (const PointTrade& point : scene.points) {
+      const std::optional<PointError>& compared = point.compared;
       csv += quoted(scene.scene) + "," + quoted(point.point.name) + "," + point.point.preset + "," +
              quoted(joined(point.point.set)) + "," + std::to_string(point.runs) + "," +
              digits(point.cost_ms) + "," + digits(point.wall_ms) + "," + digits(point.error) + "," +
-             digits(point.compared ? std::optional(point.compared->interval.low) : std::nullopt) +
-             "," +
-             digits(point.compared ? std::optional(point.compared->interval.high) : std::nullopt) +
-             "," + digits(point.compared ? std::optional(point.compared->p) : std::nullopt) + "," +
-             name_of(scene.limit) + "," + quoted(largest_of(point) ? largest_of(point)->name : "") +
-             "," + (point.on_front ? "1" : "0") + "," + digits(point.over_front) + "," +
+             (compared ? digits(compared->interval.low) + "," + digits(compared->interval.high) +
+                             "," + digits(compared->p)
+                       : ",,") +
+             "," + name_of(scene.limit) + "," +
+             quoted(largest_of(point) ? largest_of(point)->name : "") + "," +
+             (point.on_front ? "1" : "0") + "," + digits(point.over_front) + "," +
              quoted(point.failed);
       for (const std::string& name : names) {
         const FigureError* error = find_error(point, name);

@@ -32,7 +32,7 @@ bool exceeds_cost_ratio(const PointTrade& point) {
 }
 
 PlotPoint plotted(const PointTrade& point) {
-  return {point.cost_ms, std::max(*point.error, kLeastError), point.point.name,
+  return {point.cost_ms, point.counted_error(), point.point.name,
           point.point.name + ": " + format_number(point.cost_ms) + " ms, error " +
               format_number(point.error)};
 }
@@ -140,8 +140,7 @@ std::string trade_svg(const SceneTrade& scene) {
   for (const PointTrade& point : scene.points) {
     if (!point.error) continue;
     (point.point.is_preset() ? presets : others).points.push_back(plotted(point));
-    if (point.on_front)
-      front.points.push_back({point.cost_ms, std::max(*point.error, kLeastError)});
+    if (point.on_front) front.points.push_back({point.cost_ms, point.counted_error()});
   }
   std::sort(front.points.begin(), front.points.end(),
             [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
