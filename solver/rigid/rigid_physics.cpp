@@ -19,6 +19,7 @@
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/collide/dense_clusters.h"
 #include "solver/rigid/collide/narrow_phase.h"
+#include "solver/rigid/collide/passages.h"
 #include "solver/rigid/collide/query_tests.h"
 #include "solver/rigid/collide/seams.h"
 #include "solver/rigid/collide/speculative_contacts.h"
@@ -122,6 +123,7 @@ class RigidPhysics final : public Physics {
   SpeculativeContacts speculative_contacts_;
   ContactsOfBodies contacts_of_bodies_;
   Paused paused_;
+  Passages passages_;
   StepContext step_;  ///< Context of the last collide().
   /// Length of the substep that the stored impulses are from; 0: no impulses stored.
   StepLengths last_step_;
@@ -455,6 +457,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   }
   static_warm_start_.apply(step, options_.static_warm_start, bodies_, contacts_);
   bodies_.clear_step_flags();
+  passages_.begin(bodies_);
   const ContactSolveReport solved = solve_contacts(step);
   for (const BodySlot body : bodies_.slots())
     if (bodies_.is_moving_kinematic(body)) move_kinematic(step, body, bodies_);
@@ -467,6 +470,8 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.energy = energy_of(solved, step, start, end);
   report.friction_allowed_Ns = solved.work.allowed_Ns;
   report.friction_excess_Ns = solved.work.excess_Ns;
+  const std::size_t back = passages_.put_back(broad_phase_, shapes_, joints_, bodies_);
+  if (back > 0) work_.add({Stage::kSolve, "bodies put back", back});
   paused_.resume(bodies_);  // paused bodies are not asleep: contacts no longer wake them
   if (options_.sleeping) {
     const WorkSpan span(work_, Stage::kSolve, "sleep");

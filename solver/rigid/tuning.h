@@ -125,6 +125,12 @@ inline constexpr float kMaxReuseMotion = 0.03f;
 inline constexpr float kBallCastingMotion = kMaxReuseMotion;
 /// Motion in a step above which a pair is cast (continuous collision).
 inline constexpr float kCastingMotion = 0.5f;
+/// Motion by rotation in a step above which a pair that is cast turns on its way.
+inline constexpr float kTurningMotion = kContactMargin;
+/// Closing speed of an end of a body after an impact at its other end, over the speed before.
+inline constexpr float kSwing = 2;
+/// Cosine of the greatest angle to the axis of two edges at which faces swing together: 45 degrees.
+inline constexpr float kSwingCosine = 0.7f;
 /// Distance between contact points of two steps above which they are different points.
 inline constexpr float kPointMatchDistance = kCastingMotion;
 /// Motion in a step above which no old contact points are kept.

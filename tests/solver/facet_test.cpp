@@ -282,7 +282,7 @@ TEST(Facets, FastSmallBallsDoNotPassThroughThem) {
   }
 }
 
-TEST(Facets, HardlyAnyOfVeryManyFastSmallBallsPassesThroughThem) {
+TEST(Facets, NoneOfVeryManyFastSmallBallsPassesThroughThem) {
   int deep = 0, passed = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     for (const double restitution : {0.0, 0.3}) {
@@ -292,8 +292,8 @@ TEST(Facets, HardlyAnyOfVeryManyFastSmallBallsPassesThroughThem) {
       }
     }
   }
-  EXPECT_LE(deep, 100) << "of 4,000";
-  EXPECT_LE(passed, 11) << "of 4,000";
+  EXPECT_EQ(deep, 0) << "of 4,000";
+  EXPECT_EQ(passed, 0) << "of 4,000";
 }
 
 TEST(Facets, BodiesDroppedOnBumpyGroundStayAboveIt) {

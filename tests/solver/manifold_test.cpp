@@ -31,7 +31,8 @@ class TwoBlocks : public testing::Test {
     const Vec3f normal = Vec3f::UnitY(), on_a(x, 0.5f, 0);
     const std::vector<PatchPoint> points = {
         {on_a, on_a + separation_m * normal, separation_m, feature}};
-    build_manifold(pair_, bodies_, pair_motion(pair_, bodies_), normal, points, Vec3f::Zero(),
+    const PairMotion motion = pair_motion(pair_, bodies_);
+    build_manifold(pair_, bodies_, motion, normal, points, present_moment(pair_, bodies_, motion),
                    kReach_m, m_);
   }
   void move_b(const Vec3& by) {

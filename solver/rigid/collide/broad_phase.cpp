@@ -71,7 +71,7 @@ FloatBox fattened(const StepContext& step, const FloatBox& swept, const Shape& s
 }
 
 /// Returns the pair of two shapes, in the order of Pair.
-FoundPair pair_of(ShapeSlot s, ShapeSlot t, const Shapes& shapes) {
+FoundPair found_pair(ShapeSlot s, ShapeSlot t, const Shapes& shapes) {
   const Shape &first = shapes[s], &second = shapes[t];
   const bool swap = first.kind != second.kind ? first.kind == ShapeDesc::Kind::kSphere ||
                                                     second.kind == ShapeDesc::Kind::kHalfSpace
@@ -163,8 +163,16 @@ const char* BroadPhase::wrong_field(const Shapes& shapes) const {
   return nullptr;
 }
 
+Pair pair_of(ShapeSlot s, ShapeSlot t, const Shapes& shapes) {
+  const FoundPair found = found_pair(s, t, shapes);
+  Pair pair;
+  pair.shape_a = found.shape_a, pair.shape_b = found.shape_b;
+  pair.body_a = shapes[pair.shape_a].body, pair.body_b = shapes[pair.shape_b].body;
+  return pair;
+}
+
 bool is_in_order(const Pair& pair, const Shapes& shapes) {
-  return pair_of(pair.shape_a, pair.shape_b, shapes).shape_a == pair.shape_a;
+  return found_pair(pair.shape_a, pair.shape_b, shapes).shape_a == pair.shape_a;
 }
 
 void BroadPhase::remove(std::span<const ShapeSlot> removed) {
@@ -276,7 +284,7 @@ std::vector<PairSlot> BroadPhase::pairs_with(std::span<const ShapeSlot> of, cons
   for (const ShapeSlot s : of) {
     const auto consider = [&](ShapeSlot other) {
       if (role_[other] == Role::kAbsent) return;  // removed since the tree was built
-      const PairSlot slot = contacts.slot(pair_of(s, other, shapes).key());
+      const PairSlot slot = contacts.slot(found_pair(s, other, shapes).key());
       if (!slot.none()) slots.push_back(slot);
     };
     if (role_[s] == Role::kHalfSpace) {
@@ -329,7 +337,7 @@ void BroadPhase::find_pairs(ShapeSlot shape, const Shapes& shapes, const Bodies&
     if (neighbour.body == own.body || (moved_[other] && other < shape)) return;
     if (!bodies.filter[own.body].collides_with(bodies.filter[neighbour.body])) return;
     if (!mover && !bodies.dynamic(neighbour.body)) return;
-    const FoundPair pair = pair_of(shape, other, shapes);
+    const FoundPair pair = found_pair(shape, other, shapes);
     if (contacts.slot(pair.key()).none()) found.push_back(pair);
   };
   mover_tree_.overlaps(fat_[shape], consider);
@@ -364,12 +372,8 @@ void BroadPhase::update(const StepContext& step, const Shapes& shapes, const Bod
   for (std::size_t c = 0; c < chunks; ++c) all += found_[c].size();
   contacts.expect_pairs(all);
   for (std::size_t c = 0; c < chunks; ++c) {
-    for (const FoundPair& found : found_[c]) {
-      Pair pair;
-      pair.shape_a = found.shape_a, pair.shape_b = found.shape_b;
-      pair.body_a = shapes[pair.shape_a].body, pair.body_b = shapes[pair.shape_b].body;
-      contacts.add(pair);
-    }
+    for (const FoundPair& found : found_[c])
+      contacts.add(pair_of(found.shape_a, found.shape_b, shapes));
   }
 }
 

@@ -130,6 +130,8 @@ class BroadPhase {
   int refits_ = 0;
 };
 
+/// Returns the pair of two shapes, in the order in which they are tested.
+Pair pair_of(ShapeSlot s, ShapeSlot t, const Shapes& shapes);
 /// Returns true if the shapes of a pair are in the order in which they are tested.
 bool is_in_order(const Pair& pair, const Shapes& shapes);
 

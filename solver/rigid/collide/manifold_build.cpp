@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/base/rotation.h"
 #include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
@@ -93,10 +94,27 @@ PairMotion pair_motion(const Pair& pair, const Bodies& bodies) {
   return motion;
 }
 
+Moment present_moment(const Pair& pair, const Bodies& bodies, const PairMotion& motion) {
+  return {0, false, bodies.rotation_f[pair.body_a], bodies.rotation_f[pair.body_b], motion.pose};
+}
+
+Moment moment_at(float time_s, bool turning, const Pair& pair, const Bodies& bodies,
+                 const PairMotion& motion) {
+  const auto turned = [&](BodySlot body) -> Mat3f {
+    if (!turning) return bodies.rotation_f[body];
+    const Quat turn = rotation_by(double{time_s} * bodies.angular_velocity[body]);
+    return turn.toRotationMatrix().cast<float>() * bodies.rotation_f[body];
+  };
+  Moment moment{time_s, turning, turned(pair.body_a), turned(pair.body_b), {}};
+  const Mat3f back = moment.R_WA.transpose();
+  moment.pose = {back * moment.R_WB, back * (motion.offset_W + time_s * motion.velocity_W)};
+  return moment;
+}
+
 void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& motion,
-                    const Vec3f& normal_A, std::span<const PatchPoint> points, const Vec3f& shift_W,
+                    const Vec3f& normal_A, std::span<const PatchPoint> points, const Moment& moment,
                     float reach_m, Manifold& m) {
-  const Mat3f &R_WA = bodies.rotation_f[pair.body_a], &R_WB = bodies.rotation_f[pair.body_b];
+  const Mat3f &R_WA = moment.R_WA, &R_WB = moment.R_WB;
   const std::array<ManifoldPoint, 4> old = m.points;
   const std::size_t old_count = m.count;
   m.body_a = pair.body_a, m.body_b = pair.body_b;
@@ -105,13 +123,22 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
   m.normal_body = m.normal_on_b ? Vec3f(R_WB.transpose() * m.normal_W) : normal_A;
   m.built_position = motion.pose.p;
   m.built_rotation = relative_rotation(m, bodies);
-  const Vec3f p_shifted = motion.pose.p + R_WA.transpose() * shift_W;
+  const Vec3f spin_a_W = bodies.angular_velocity[pair.body_a].cast<float>(),
+              spin_b_W = bodies.angular_velocity[pair.body_b].cast<float>();
+  // A point that is to be where it is at the moment starts where straight motion leads there.
+  const auto closed_m = [&](const ManifoldPoint& point) {
+    Vec3f velocity_W = motion.velocity_W;
+    if (moment.turned) {
+      velocity_W += spin_b_W.cross(R_WB * point.anchor_B) - spin_a_W.cross(R_WA * point.anchor_A);
+    }
+    return moment.time_s * m.normal_W.dot(velocity_W);
+  };
   for (std::size_t i = 0; i < points.size(); ++i) {
     ManifoldPoint& point = m.points[i];
     point = ManifoldPoint();
     point.anchor_A = points[i].on_a;
-    point.anchor_B = motion.pose.R.transpose() * (points[i].on_b - p_shifted);
-    point.separation_m = points[i].separation_m - m.normal_W.dot(shift_W);
+    point.anchor_B = moment.pose.R.transpose() * (points[i].on_b - moment.pose.p);
+    point.separation_m = points[i].separation_m - closed_m(point);
     point.feature = points[i].feature;
   }
   if (points.empty()) {

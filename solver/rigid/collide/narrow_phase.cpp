@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "solver/base/lanes.h"
 #include "solver/base/prefetch.h"
 #include "solver/rigid/collide/facet.h"
 #include "solver/rigid/tuning.h"
@@ -55,11 +56,16 @@ struct Probe {
     return passing_axis(a.hull, b.hull, pose, displacement_A, tolerance_m, scratch.hulls);
   }
 
-  void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m,
-              float layer_m) const {
+  /// Finds the points within `reach_m`; also those of faces that an impact at an edge will swing
+  /// together, if `swings`.
+  void points(const RelativePose& pose, const SeparatingAxis& axis, float reach_m, float layer_m,
+              bool swings) const {
     scratch.points.clear();
     if (a.kind == Kind::kHull && b.kind == Kind::kHull) {
       make_patch(a.hull, b.hull, pose, axis, reach_m, scratch.hulls, scratch.patch, scratch.points);
+      if (swings && axis.kind == SeparatingAxis::Kind::kEdges)
+        add_faces_at_edges(a.hull, b.hull, pose, axis, reach_m, scratch.hulls, scratch.patch,
+                           scratch.points);
       reduce_patch(axis.normal_A, layer_m, scratch.points);
     } else {
       const Vec3f on_b = pose.R * b.center + pose.p - b.radius_m * axis.normal_A;
@@ -69,23 +75,40 @@ struct Probe {
   }
 };
 
-/// Returns the time until the shapes, moving straight, come within `target_m`; negative: not within
-/// dt_s. Conservative advancement: a step by the gap along a separating axis never overshoots.
-/// `axis` is the best axis at the start, and at the returned time.
-float time_of_impact(const Probe& probe, const RelativePose& start, const Vec3f& velocity_A,
-                     float target_m, float dt_s, SeparatingAxis& axis) {
-  RelativePose pose = start;
-  float time = 0;
-  for (int round = 0; round < kImpactRounds && axis.separation_m > target_m; ++round) {
-    const float closing = -axis.normal_A.dot(velocity_A);
-    if (closing <= 0) return -1;
-    time += (axis.separation_m - 0.5f * target_m) / closing;
-    if (time > dt_s) return -1;
-    pose.p = start.p + time * velocity_A;
-    axis = probe.axis(pose, {target_m, (dt_s - time) * velocity_A});
+/// Motion of two shapes within a step at their present velocities.
+struct Flight {
+  const Probe& probe;
+  const Pair& pair;
+  const Bodies& bodies;
+  const PairMotion& motion;
+  bool turning;        ///< The shapes turn by an angle that counts.
+  float spin_m_s = 0;  ///< Maximum speed of any point by rotation.
+  float dt_s = 0;
+
+  Moment at(float time_s) const { return moment_at(time_s, turning, pair, bodies, motion); }
+  Vec3f velocity_A(const Moment& moment) const {
+    return moment.R_WA.transpose() * motion.velocity_W;
   }
-  return time;
-}
+  /// Speed by which a gap along an axis can close.
+  float closing_m_s(const Moment& moment, const Vec3f& normal_A) const {
+    return spin_m_s - normal_A.dot(velocity_A(moment));
+  }
+  /// Moves `moment` on until the shapes come within `target_m`, or the step ends; returns false if
+  /// they do not come within it. Conservative advancement: a step by the gap along a separating
+  /// axis never overshoots. `axis` is the best axis at the moment, before and after.
+  bool to_impact(float target_m, Moment& moment, SeparatingAxis& axis) const {
+    for (int round = 0; round < kImpactRounds && axis.separation_m > target_m; ++round) {
+      const float closing = closing_m_s(moment, axis.normal_A);
+      if (closing <= 0) return false;
+      const float time = moment.time_s + (axis.separation_m - 0.5f * target_m) / closing;
+      if (time > dt_s) return false;
+      moment = at(time);
+      const float left_s = dt_s - time;
+      axis = probe.axis(moment.pose, {target_m + left_s * spin_m_s, left_s * velocity_A(moment)});
+    }
+    return true;
+  }
+};
 
 struct Reach {
   float margin_m;        ///< Margin at any motion.
@@ -117,19 +140,41 @@ void half_space_contact(const Shape& a, const Shape& b, const Pair& pair, const 
   } else {
     add(b.center - b.radius_m * normal_B, 0);
   }
-  build_manifold(pair, bodies, motion, a.normal, points, Vec3f::Zero(), kNoPoint, m);
+  build_manifold(pair, bodies, motion, a.normal, points, present_moment(pair, bodies, motion),
+                 kNoPoint, m);
 }
 
-Reach reach_of(const Shape& a, const Shape& b, const Pair& pair, const Bodies& bodies,
-               const PairMotion& motion, const StepContext& step, float size_m) {
+/// Returns the distance of the farthest point of a shape from an axis through the body's centre.
+float reach_from_axis(const Shape& shape, const Vec3f& axis_B) {
+  if (shape.kind != Kind::kHull) return shape.reach_m;
+  const Wide3 axis = splat3(axis_B);
+  Wide most = splat(0);
+  for (const Wide3& v : shape.hull.vertices()) {
+    const Wide along = dot(axis, v);
+    most = max(most, dot(v, v) - along * along);
+  }
+  return std::sqrt(max_lane(most));
+}
+
+/// Returns the maximum motion of any point of a shape by rotation, to within `tolerance_m` more.
+float spin_reach(const Shape& shape, const Bodies& bodies, double dt_s, float tolerance_m) {
+  const Vec3& spin_W = bodies.angular_velocity[shape.body];
+  const double spin = spin_W.norm();
+  const auto angle = static_cast<float>(std::min(1., spin * dt_s));
+  const float most_m = angle * shape.reach_m;
+  if (most_m <= tolerance_m) return most_m;
+  const Vec3f axis_W = (spin_W / spin).cast<float>();
+  return angle * reach_from_axis(shape, bodies.rotation_f[shape.body].transpose() * axis_W);
+}
+
+Reach reach_of(const Shape& a, const Shape& b, const Bodies& bodies, const PairMotion& motion,
+               const StepContext& step, float size_m) {
   const auto dt = static_cast<float>(step.dt_s);
-  auto spin_reach = [&](BodySlot body, float reach_m) {
-    const auto spin = static_cast<float>(bodies.angular_velocity[body].norm());
-    return std::min(1.f, spin * dt) * reach_m;
-  };
-  return {kContactMargin * size_m + step.fall_m,
-          spin_reach(pair.body_a, a.reach_m) + spin_reach(pair.body_b, b.reach_m),
-          dt * motion.velocity_W.norm()};
+  const float tolerance_m = kDepthTolerance * size_m;
+  return {
+      kContactMargin * size_m + step.fall_m,
+      spin_reach(a, bodies, step.dt_s, tolerance_m) + spin_reach(b, bodies, step.dt_s, tolerance_m),
+      dt * motion.velocity_W.norm()};
 }
 
 /// Axis and time of a collision.
@@ -171,50 +216,56 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
                   NarrowScratch& scratch) {
   const Probe probe{a, b, m.size_m, scratch};
   const auto dt = static_cast<float>(dt_s);
-  const Vec3f velocity_A = bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W;
-  AxisReach axis_reach{reach.margin_m + reach.spin_m, dt * velocity_A};
-  RelativePose pose = motion.pose;
-  SeparatingAxis axis = probe.axis(pose, axis_reach);
-  float time = 0;
+  Flight flight{probe, pair, bodies, motion, false, reach.spin_m / dt, dt};
+  Moment moment = present_moment(pair, bodies, motion);
+  const Vec3f velocity_A = flight.velocity_A(moment);
+  const AxisReach axis_reach{reach.margin_m + reach.spin_m, dt * velocity_A};
+  SeparatingAxis axis = probe.axis(moment.pose, axis_reach);
   const bool may_touch = axis.separation_m <= axis_reach.along(axis.normal_A);
   // The normal of balls depends on where they touch.
   const float casting_motion = b.kind == Kind::kSphere ? kBallCastingMotion : kCastingMotion;
   const bool fast = may_touch && reach.displacement_m > casting_motion * m.size_m;
   const std::optional<SeparatingAxis> passing =
-      fast ? probe.passing(pose, axis, dt * velocity_A) : std::nullopt;
+      fast ? probe.passing(moment.pose, axis, dt * velocity_A) : std::nullopt;
+  bool meet = may_touch;
   if (passing) {
     axis = *passing;
   } else if (fast) {
-    axis_reach.displacement_A.setZero();
-    time = time_of_impact(probe, pose, velocity_A, axis_reach.margin_m, dt, axis);
-    pose.p += std::max(0.f, time) * velocity_A;
-    if (time > 0 && b.kind == Kind::kSphere) {  // the normal turns until they touch
+    flight.turning = !a.facet && reach.spin_m > kTurningMotion * m.size_m;
+    meet = flight.to_impact(reach.margin_m, moment, axis);
+    if (meet && moment.time_s > 0 &&
+        b.kind == Kind::kSphere) {  // the normal turns until they touch
       SeparatingAxis touching = axis;
-      const float target_m = kBallImpactGap * m.size_m;
-      const float more = time_of_impact(probe, pose, velocity_A, target_m, dt - time, touching);
-      if (more > 0) axis = touching, time += more, pose.p += more * velocity_A;
+      Moment touch = moment;
+      if (flight.to_impact(kBallImpactGap * m.size_m, touch, touching))
+        axis = touching, moment = touch;
     }
   }
-  const bool by_front = may_touch && a.facet && time >= 0 && !normal_to_surface(a, axis.normal_A);
+  const bool by_front = meet && a.facet && !normal_to_surface(a, axis.normal_A);
   if (by_front) {
     const Collision front =
         collide_with_front(a, b, motion.pose, velocity_A, reach.margin_m + reach.spin_m, dt);
-    axis = front.axis, time = front.time_s;
-    pose.p = motion.pose.p + std::max(0.f, time) * velocity_A;
-    if (time >= 0 && b.kind == Kind::kHull) place_in_A(b.hull, pose, scratch.hulls);
+    axis = front.axis, meet = front.time_s >= 0;
+    moment = flight.at(std::max(0.f, front.time_s));
+    if (meet && b.kind == Kind::kHull) place_in_A(b.hull, moment.pose, scratch.hulls);
   }
-  const float limit = axis_reach.along(axis.normal_A);
+  const bool swings = fast && !passing;
+  const float left_s = dt - moment.time_s, spin_m = left_s * flight.spin_m_s;
+  const float closing_m = left_s * std::max(0.f, -axis.normal_A.dot(flight.velocity_A(moment)));
+  const float swing_m = swings ? kSwing * closing_m : 0;
+  const float limit = reach.margin_m + spin_m + std::max(closing_m, swing_m);
   scratch.points.clear();
-  if (time >= 0 && axis.separation_m <= limit) {
-    probe.points(pose, axis, limit, kDepthTolerance * m.size_m + reach.spin_m);
-    if (by_front) keep_on_front(a, m.size_m, time > 0, scratch.points);
+  if (meet && axis.separation_m <= limit) {
+    probe.points(moment.pose, axis, limit, kDepthTolerance * m.size_m + spin_m + swing_m, swings);
+    if (by_front) keep_on_front(a, m.size_m, moment.time_s > 0, scratch.points);
   }
-  pair.clearance_m = time == 0 && scratch.points.empty() ? axis.separation_m : -1;
+  const bool now = moment.time_s == 0;
+  pair.clearance_m = now && scratch.points.empty() ? axis.separation_m : -1;
   pair.axis_A = pair.clearance_m > 0 ? axis.normal_A : Vec3f(Vec3f::Zero());
   m.normal_on_b = axis.kind == SeparatingAxis::Kind::kFaceB;
-  m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && time == 0;
+  m.reusable = a.kind == Kind::kHull && b.kind == Kind::kHull && now;
   build_manifold(
-      pair, bodies, motion, axis.normal_A, scratch.points, std::max(0.f, time) * motion.velocity_W,
+      pair, bodies, motion, axis.normal_A, scratch.points, moment,
       reach.spin_m + reach.displacement_m < kKeptPointMotion * m.size_m ? limit : kNoPoint, m);
 }
 
@@ -295,7 +346,7 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
     refresh_manifold(bodies, motion, m);
     return;
   }
-  const Reach reach = reach_of(a, b, pair, bodies, motion, step, size_m);
+  const Reach reach = reach_of(a, b, bodies, motion, step, size_m);
   pair.margin_m = reach.margin_m;
   const Vec3f displacement_A = static_cast<float>(step.dt_s) *
                                (bodies.rotation_f[pair.body_a].transpose() * motion.velocity_W);
@@ -314,6 +365,20 @@ void update_contact(const StepContext& step, const Shapes& shapes, const Bodies&
   } else {
     make_contact(a, b, bodies, motion, reach, step.dt_s, pair, m, scratch);
   }
+}
+
+float separation_m(const Shape& a, const Shape& b, const RelativePose& pose,
+                   NarrowScratch& scratch) {
+  if (a.kind != Kind::kHalfSpace)
+    return Probe{a, b, std::min(a.inner_radius_m, b.inner_radius_m), scratch}
+        .axis(pose, {})
+        .separation_m;
+  if (b.kind == Kind::kSphere)
+    return a.normal.dot(pose.R * b.center + pose.p - a.center) - b.radius_m;
+  float least = 1e30f;
+  for (std::uint32_t v = 0; v < b.hull.vertex_count(); ++v)
+    least = std::min(least, a.normal.dot(pose.R * b.hull.vertex(v) + pose.p - a.center));
+  return least;
 }
 
 HullDistance distance_to_hull(const Hull& hull, const Vec3f& point) {

@@ -38,6 +38,11 @@ void prefetch_pairs(PairSlot at, PairSlot end, const Contacts& contacts, const S
 void update_contact(const StepContext& step, const Shapes& shapes, const Bodies& bodies, Pair& pair,
                     Manifold& m, NarrowScratch& scratch);
 
+/// Returns the distance of two shapes at a pose, negative if they overlap; any distance apart may
+/// be given for the true one. They are in the order of Pair.
+float separation_m(const Shape& a, const Shape& b, const RelativePose& pose,
+                   NarrowScratch& scratch);
+
 /// Point of a hull's surface closest to a point, by its distance (negative inside) and the normal
 /// away from the hull, in the hull's frame.
 struct HullDistance {

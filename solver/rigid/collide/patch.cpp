@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "solver/rigid/tuning.h"
+
 namespace sunder::solver {
 namespace {
 
@@ -58,6 +60,8 @@ void face_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
   const Hull &reference = on_a ? a : b, &incident = on_a ? b : a;
   const std::uint32_t face = on_a ? axis.index_a : axis.index_b;
   const Vec3f normal = on_a ? axis.normal_A : Vec3f(-axis.normal_A);  // away from the reference
+  const Vec3f plane = on_a ? a.normal(face) : Vec3f(pose.R * b.normal(face));
+  const float slope = 1 / plane.dot(normal);  // 1 unless an edge gave the axis
   const std::uint32_t other =
       incident_face(incident, on_a ? Vec3f(pose.R.transpose() * normal) : normal);
   auto position = [&](bool of_a, std::uint32_t v) {
@@ -78,7 +82,7 @@ void face_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
   }
   const std::uint32_t owner = on_a ? 0 : 1u << 31;
   for (const auto& corner : scratch.polygon) {
-    const float separation = normal.dot(corner.position - scratch.reference[0]);
+    const float separation = slope * plane.dot(corner.position - scratch.reference[0]);
     if (separation > reach_m) continue;
     const Vec3f opposite = corner.position - separation * normal;
     points.push_back({on_a ? opposite : corner.position, on_a ? corner.position : opposite,
@@ -144,6 +148,19 @@ void make_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
   }
   face_patch(a, b, pose, axis, reach_m, hulls, scratch, points);
   if (points.empty() && axis.separation_m < 0) points.push_back(deepest_point(a, b, axis, hulls));
+}
+
+void add_faces_at_edges(const Hull& a, const Hull& b, const RelativePose& pose,
+                        const SeparatingAxis& edges, float reach_m, const HullScratch& hulls,
+                        PatchScratch& scratch, std::vector<PatchPoint>& points) {
+  SeparatingAxis faces = edges;
+  const Vec3f normal_B = pose.R.transpose() * edges.normal_A;
+  faces.index_a = incident_face(a, -edges.normal_A), faces.index_b = incident_face(b, normal_B);
+  const float cosine_a = a.normal(faces.index_a).dot(edges.normal_A),
+              cosine_b = -b.normal(faces.index_b).dot(normal_B);
+  if (std::max(cosine_a, cosine_b) < kSwingCosine) return;
+  faces.kind = cosine_a >= cosine_b ? SeparatingAxis::Kind::kFaceA : SeparatingAxis::Kind::kFaceB;
+  face_patch(a, b, pose, faces, reach_m, hulls, scratch, points);
 }
 
 void reduce_patch(const Vec3f& normal_A, float layer_m, std::vector<PatchPoint>& points) {

@@ -31,6 +31,12 @@ void make_patch(const Hull& a, const Hull& b, const RelativePose& pose, const Se
                 float reach_m, const HullScratch& hulls, PatchScratch& scratch,
                 std::vector<PatchPoint>& points);
 
+/// Appends the points of the faces that two edges swing together: the two faces that most face each
+/// other along the axis of the edges, unless both are steep to it.
+void add_faces_at_edges(const Hull& a, const Hull& b, const RelativePose& pose,
+                        const SeparatingAxis& edges, float reach_m, const HullScratch& hulls,
+                        PatchScratch& scratch, std::vector<PatchPoint>& points);
+
 /// Keeps at most four points: the deepest, and those that span the largest area with it. Points
 /// more than `layer_m` above the deepest count only if fewer than four are below that: a piece
 /// would tip onto a deep point that was left out.

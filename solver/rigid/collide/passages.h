@@ -1,0 +1,31 @@
+// Bodies that passed through others within a step, as a body does that bounces off one wall into
+// another, and that are put back to where they touched.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "solver/rigid/body/bodies.h"
+#include "solver/rigid/collide/broad_phase.h"
+#include "solver/rigid/joint/joint.h"
+
+namespace sunder::solver {
+
+/// Puts back what the contacts of a step did not stop: shapes whose centre went into another shape.
+/// Both bodies return to where they were before they met, with the velocities that they have, and
+/// the next step finds their contact.
+class Passages {
+ public:
+  /// Keeps the poses at the start of a step.
+  void begin(const Bodies& bodies);
+  /// Puts back all bodies that passed through others since begin(), with all that joints hold to
+  /// them; returns their number.
+  std::size_t put_back(const BroadPhase& broad_phase, const Shapes& shapes, const Joints& joints,
+                       Bodies& bodies) const;
+
+ private:
+  ByBody<Vec3> position_;
+  ByBody<Quat> rotation_;
+};
+
+}  // namespace sunder::solver
