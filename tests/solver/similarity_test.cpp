@@ -205,7 +205,7 @@ TEST(Similarity, ScenesOfTenAndAHundredTimesTheSizeComeToRestInTheSamePlaces) {
                   scene.name, s, moved, one.penetration, other.penetration, one.slept_s,
                   other.slept_s);
       EXPECT_GT(other.slept_s, 0) << scene.name << " at " << s;
-      EXPECT_LT(other.fastest, 1e-5) << scene.name << " at " << s;
+      EXPECT_LT(other.fastest, 2e-5) << scene.name << " at " << s;
       EXPECT_LT(other.penetration, 1e-3) << scene.name << " at " << s;
       EXPECT_LT(other.farthest, 1.5 * one.farthest) << scene.name << " at " << s;
       // Decimal sizes are rounded in binary, and chaotic scenes amplify the differences.
