@@ -173,6 +173,10 @@ inline constexpr double kMinPrismParallelism = 0.999;
 /// Number of nodes by default, as a multiple of the least number by the limit of polygons: pieces
 /// have unequal numbers of polygons.
 inline constexpr double kNodesPerFullPiece = 1.5;
+/// Maximum number of nodes to which the number is doubled by default.
+inline constexpr std::uint32_t kMostChosenNodes = 192;
+/// Slack of hulls with twice the nodes, over that before, above which they are hardly tighter.
+inline constexpr double kLeastTighter = 0.9;
 inline constexpr std::size_t kSamplesPerNode = 96;     ///< Surface samples per node.
 inline constexpr std::size_t kMinNodeSamples = 1024;   ///< Minimum number of samples of a mesh.
 inline constexpr std::size_t kMaxNodeSamples = 16384;  ///< Maximum number of samples of a mesh.

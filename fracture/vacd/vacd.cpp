@@ -44,13 +44,13 @@ std::vector<VacdPiece> all_pieces(const RepairedMesh& mesh, const VacdOptions& o
   return pieces;
 }
 
-/// Returns enough nodes for pieces with few enough polygons, as placing nodes is faster than
-/// cutting pieces one by one.
+/// Returns the least number of nodes that is tried: enough for pieces with few enough polygons, as
+/// placing nodes is faster than cutting pieces one by one.
 std::uint32_t nodes_by_default(const RepairedMesh& mesh, const VacdOptions& options) {
   std::size_t polygons = 0;
   for (const PolygonMesh& shell : mesh.shells) polygons += shell.faces.size();
   const double needed = kNodesPerFullPiece * static_cast<double>(polygons) / options.polygons;
-  return std::clamp(static_cast<std::uint32_t>(std::min<double>(needed, kMostNodes)), kDefaultNodes,
+  return std::clamp(static_cast<std::uint32_t>(std::min<double>(needed, kMostNodes)), kFewestNodes,
                     kMostNodes);
 }
 
@@ -59,8 +59,7 @@ std::vector<VacdPiece> cut_pieces(const RepairedMesh& mesh, const VacdOptions& o
                                   PlaneIdAllocator& ids) {
   const auto shells = static_cast<std::uint32_t>(mesh.shells.size());
   const std::uint32_t limit = options.convexes;
-  std::uint32_t count =
-      options.node_count.value_or(limit > 0 ? shells : nodes_by_default(mesh, options));
+  std::uint32_t count = options.node_count.value_or(shells);
   for (;;) {
     ids = {};
     std::vector<VacdPiece> pieces = all_pieces(mesh, options, count, ids);
@@ -170,10 +169,7 @@ VacdFigures measure(const Compound& compound, const RepairedMesh& mesh) {
   return figures;
 }
 
-}  // namespace
-
-Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
-  check_options(options);
+Vacd decompose_as_told(const RepairedMesh& mesh, const VacdOptions& options) {
   const Stopwatch watch;
   PlaneIdAllocator ids;
   std::vector<VacdPiece> pieces = cut_pieces(mesh, options, ids);
@@ -187,6 +183,28 @@ Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   result.figures.split_ms = split_ms;
   result.figures.total_ms = total_ms;
   return result;
+}
+
+}  // namespace
+
+Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
+  check_options(options);
+  if (!options.chooses_nodes()) return decompose_as_told(mesh, options);
+  VacdOptions chosen = options;
+  chosen.node_count = nodes_by_default(mesh, options);
+  Vacd best = decompose_as_told(mesh, chosen);
+  double split_ms = best.figures.split_ms, total_ms = best.figures.total_ms;
+  const auto slack = [](const Vacd& vacd) { return vacd.figures.hull_volume_ratio() - 1; };
+  while (best.figures.hull_volume_ratio() > kTightHulls &&
+         *chosen.node_count <= kMostChosenNodes / 2) {
+    *chosen.node_count *= 2;
+    Vacd next = decompose_as_told(mesh, chosen);
+    split_ms += next.figures.split_ms, total_ms += next.figures.total_ms;
+    if (!(slack(next) < kLeastTighter * slack(best))) break;
+    best = std::move(next);
+  }
+  best.figures.split_ms = split_ms, best.figures.total_ms = total_ms;
+  return best;
 }
 
 }  // namespace sunder::fracture

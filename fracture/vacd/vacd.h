@@ -18,8 +18,7 @@
 
 namespace sunder::fracture {
 
-/// Default number of Voronoi nodes.
-inline constexpr std::uint32_t kDefaultNodes = 12;
+inline constexpr std::uint32_t kFewestNodes = 12;  ///< Least number of nodes by default.
 inline constexpr std::uint32_t kMostNodes = 10000;  ///< Maximum number of nodes and of convexes.
 inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Default limit of polygons per piece.
 
@@ -28,7 +27,9 @@ struct VacdOptions {
   std::vector<Vec3>
       /// Sites of Voronoi cells in the mesh's coordinates, placed by hand; empty: automatic.
       nodes;
-  /// Number of automatic nodes of all shells together; none by default if `convexes` is given.
+  /// Number of automatic nodes of all shells together. By default none if `convexes` is given, and
+  /// else as many as make hulls of at most kTightHulls times the volume of the mesh: the number is
+  /// doubled until they do, or until that makes them hardly tighter.
   std::optional<std::uint32_t> node_count;
   /// Maximum number of convexes, which is reached if more convexes make tighter hulls; 0: as many
   /// as the nodes make. There are never fewer convexes than shells, as a convex owns one connected
@@ -47,6 +48,9 @@ struct VacdOptions {
   std::vector<std::uint8_t> textured_by_appearance{};
   /// Called with the fraction of the work done; may be empty.
   std::function<void(double)> progress{};
+
+  /// True if the number of nodes follows from the mesh.
+  bool chooses_nodes() const { return nodes.empty() && !node_count && convexes == 0; }
 };
 
 /// Measurements of a decomposition.
@@ -69,6 +73,9 @@ struct Vacd {
   Compound compound;
   VacdFigures figures;
 };
+
+/// Largest volume of all hulls, over that of the mesh, at which hulls are tight.
+inline constexpr double kTightHulls = 1.15;
 
 /// Decomposes a mesh into convexes, each of which owns one connected, watertight piece of a shell
 /// in one of disjoint convex regions. The pieces add up to the mesh without the parts that are

@@ -64,11 +64,9 @@ Compound triangle_compound(const SunderMeshDef& def, const MeshOptions& options,
              "; expected an index below " + std::to_string(def.vertex_count));
     if (i % 3 == 0) raw.polygons.push_back({i, 3});
   }
-  fracture::VacdOptions vacd = vacd_options(options);
-  vacd.material = material;
-  return fracture::decompose(
-             repair_mesh(std::move(raw), "mesh", {.repair = options.repair != "off"}), vacd)
-      .compound;
+  MeshSolid solid = make_mesh_solid(std::move(raw), "mesh", options);
+  set_materials(solid.compound, {material});
+  return moved(solid.compound, solid.origin);
 }
 
 SunderAsset store(Compound compound, Array<SunderMaterial> own) {

@@ -42,14 +42,14 @@ struct Broken {
 };
 
 /// Returns the break that the options describe.
-BreakCommand command_of(const FractureOptions& options, const Compound& compound) {
+BreakCommand command_of(const FractureOptions& options, const scenes::MeshSolid& mesh) {
   scenes::SolidBreak solid;
   solid.name = "--pattern " + options.pattern;
   solid.pattern = scenes::parse_pattern(options.pattern, "--pattern");
-  if (!options.at.empty()) solid.at_R = parse_point("--at", options.at);
+  if (!options.at.empty()) solid.at_R = parse_point("--at", options.at) - mesh.origin;
   solid.radius_m = options.radius_m;
   solid.seed = options.seed;
-  return scenes::break_command(compound, solid);
+  return scenes::break_command(mesh.compound, solid);
 }
 
 /// Estimated fractions of all work after preparation of the mesh, and after the break.
@@ -155,7 +155,7 @@ fracture::BreakCase case_of(const FractureOptions& options, const scenes::MeshOp
     mesh.appearances = &attempt.appearances;
     mesh.progress = [&](const char* step, double share) { progress(step, kMeshShare * share); };
     attempt.solid = scenes::make_mesh_solid(options.mesh, mesh);
-    return {attempt.solid.compound, command_of(options, attempt.solid.compound)};
+    return {attempt.solid.compound, command_of(options, attempt.solid)};
   }
   if (!options.pattern.empty() || !options.at.empty() || options.radius_m) {
     throw InputError(options.mesh +
@@ -211,7 +211,7 @@ int fracture_mesh(const FractureOptions& options) {
   if (!options.output.empty()) {
     const std::size_t walled =
         write_solids(options.output, broken.plan.pieces, stone(), appearances, options.explode,
-                     options.walls == "keep" ? Walls::kKeep : Walls::kRemove);
+                     options.walls == "keep" ? Walls::kKeep : Walls::kRemove, solid.origin);
     options.print("wrote " + options.output + "\n");
     if (walled > 0) {
       solid.warnings.push_back(

@@ -115,7 +115,7 @@ void check_output(const std::string& output) {
 std::size_t write_solids(const std::string& output, const std::vector<Compound>& solids,
                          const std::vector<Material>& materials,
                          std::vector<Appearance> appearances, std::optional<double> explode,
-                         Walls walls) {
+                         Walls walls, const Vec3& origin) {
   if (has_ending(output, ".png")) {
     constexpr double kDefaultExplode = 0.3;  // makes cracks visible
     draw_solids(output, solids, materials, std::move(appearances),
@@ -130,7 +130,8 @@ std::size_t write_solids(const std::string& output, const std::vector<Compound>&
     if (!known) known = render::as_normal_map(appearance.relief);
     appearance.relief = known;
   }
-  const Model model = make_model(solids, materials, explode.value_or(0), appearances, walls);
+  Model model = make_model(solids, materials, explode.value_or(0), appearances, walls);
+  for (Model::Part& part : model.parts) part.offset += origin;
   if (is_folder(output)) {
     write_obj_folder(output, model);
   } else {

@@ -67,7 +67,7 @@ void decompose_once(const VacdOptions& options) {
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
-                 options.explode, Walls::kKeep);
+                 options.explode, Walls::kKeep, solid.origin);
     options.print("wrote " + options.output + "\n");
   }
   options.write_json(format_figures(figures_of(solid, mesh.scale, double_counted)));

@@ -128,6 +128,7 @@ Compound read_compound(const MeshTable& given, const std::filesystem::path& fold
   MeshOptions options = options_of(given, folder);
   if (given.look == LookChoice::kFile) options.appearances = &appearances;
   options.warnings = &warnings;
+  options.centered = true;  // bodies are placed by their foot
   return make_compound(mesh, given.material.index, options);
 }
 

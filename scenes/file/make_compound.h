@@ -32,6 +32,8 @@ struct MeshOptions {
   std::vector<Appearance>* appearances = nullptr;
   /// Warnings about appearances are appended to this, each once; null: there are none.
   std::vector<std::string>* warnings = nullptr;
+  /// The compound of a mesh far from its origin stays at the origin, where doubles are fine enough.
+  bool centered = false;
   bool cached = false;  ///< True if decompositions are cached on disk (mesh_cache.h).
   /// Called at the start of each step, and with the fraction of all work done; may be empty.
   std::function<void(const char* step, double share)> progress{};
@@ -44,6 +46,8 @@ struct MeshOptions {
 Compound make_compound(const std::string& mesh, MaterialIndex material,
                        const MeshOptions& options = {});
 
+/// Returns the compound moved by a vector in R.
+Compound moved(const Compound& compound, const Vec3& by);
 /// Returns the islands of a compound, the connected parts, each of which is to be a solid.
 std::vector<Compound> split_islands(const Compound& compound);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -58,6 +60,21 @@ void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions
   }
   for (Vec3& vertex : mesh.vertices) vertex *= scale;
   for (Vec3& node : vacd.nodes) node *= scale;
+}
+
+/// Moves a mesh that is far from its origin to its middle, which it returns, rounded to a multiple
+/// of a power of two above its size, so that what is moved and what was not have the same bits.
+Vec3 move_to_middle(RawMesh& mesh, fracture::VacdOptions& vacd) {
+  constexpr double kFar = 16;  // distance from the origin, in sizes
+  Box box;
+  for (const std::uint32_t vertex : mesh.corners) box.extend(mesh.vertices[vertex]);
+  const double size_m = box.empty() ? 0 : box.extent().maxCoeff();
+  if (!(box.center().cwiseAbs().maxCoeff() > kFar * size_m)) return Vec3::Zero();
+  const double unit_m = size_m > 0 ? std::exp2(std::ceil(std::log2(size_m))) : 1;
+  const Vec3 middle = unit_m * (box.center() / unit_m).array().round().matrix();
+  for (Vec3& vertex : mesh.vertices) vertex -= middle;
+  for (Vec3& node : vacd.nodes) node -= middle;
+  return middle;
 }
 
 /// Returns the material of each group of a mesh: i + 1 if the first name of the group that is given
@@ -148,6 +165,23 @@ std::string missing_warning(const std::string& file, const std::vector<std::stri
          "; put them into the folder of the mesh, or export it as .glb with textures";
 }
 
+/// Returns a warning if a decomposition is not as its user may expect; empty if it is.
+std::string decomposition_warning(const std::string& file, const fracture::VacdOptions& options,
+                                  const Compound& compound, double hull_volume_ratio) {
+  const std::size_t made = compound.convexes.size();
+  if (options.convexes > 0 && made > options.convexes)
+    return file + ": it has " + std::to_string(made) + " separate parts, each of which needs a " +
+           "convex, so that there are " + std::to_string(made) + " convexes in place of " +
+           std::to_string(options.convexes);
+  if (!options.chooses_nodes() || hull_volume_ratio <= fracture::kTightHulls) return "";
+  char text[300];
+  std::snprintf(text, sizeof text,
+                ": its %zu convexes have %.3g times its volume, so that they may close openings; "
+                "give a number of nodes or of convexes for tighter ones",
+                made, hull_volume_ratio);
+  return file + text;
+}
+
 /// Repairs and decomposes a mesh, or loads the result from the cache.
 MeshSolid decomposed(RawMesh raw, const std::string& file, fracture::VacdOptions vacd_of,
                      const MeshOptions& options) {
@@ -156,6 +190,7 @@ MeshSolid decomposed(RawMesh raw, const std::string& file, fracture::VacdOptions
   }
   const std::string warning = missing_warning(file, raw.missing_files);
   scale_mesh(raw, options, vacd_of);
+  const Vec3 origin = move_to_middle(raw, vacd_of);
   if (!options.materials.empty())
     vacd_of.materials_by_appearance = materials_of(raw, file, options);
   std::vector<std::optional<Appearance>> appearances;
@@ -179,8 +214,12 @@ MeshSolid decomposed(RawMesh raw, const std::string& file, fracture::VacdOptions
     solid.vacd = vacd.figures;
     if (options.cached) store_cached(key, solid);
   }
+  solid.origin = origin;
   solid.name = std::filesystem::path(file).filename().string();
   if (!warning.empty()) solid.warnings.push_back(warning);
+  const std::string coarse =
+      decomposition_warning(file, vacd_of, solid.compound, solid.vacd->hull_volume_ratio());
+  if (!coarse.empty()) solid.warnings.push_back(coarse);
   set_appearances(solid.compound, options.appearances
                                       ? add_appearances(appearances, *options.appearances)
                                       : std::vector<std::uint32_t>());

@@ -21,13 +21,17 @@ namespace sunder::scenes {
 /// list MeshOptions::appearances.
 struct MeshSolid {
   Compound compound;
+  /// Origin of the compound in the coordinates of the mesh, in m: 0 unless the mesh is far from its
+  /// origin, where doubles are too coarse.
+  Vec3 origin = Vec3::Zero();
   std::string name;
   std::size_t vertices = 0;  ///< Vertices of the mesh before repairs.
   std::size_t faces = 0;     ///< Polygons of the mesh before repairs.
   bool closed = true;        ///< True if the mesh was closed before repairs.
   std::vector<Repair> repairs;
   std::optional<fracture::VacdFigures> vacd;  ///< None for a compound that was not decomposed.
-  std::vector<std::string> warnings;          ///< Missing texture and material files.
+  /// Missing texture and material files; a coarse decomposition.
+  std::vector<std::string> warnings;
   double prepare_ms = 0;                      ///< Time of reading, repairs and decomposition.
 };
 

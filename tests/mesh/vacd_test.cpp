@@ -179,6 +179,56 @@ TEST(Vacd, PiecesCoverTheMeshWithoutOverlap) {
   }
 }
 
+/// Returns a tube about the y axis, of height 1 and outer radius 0.5.
+RepairedMesh tube(double inner_radius, std::uint32_t sides) {
+  RawMesh raw;
+  for (const double y : {0., 1.}) {
+    for (const double radius : {0.5, inner_radius}) {
+      for (std::uint32_t i = 0; i < sides; ++i) {
+        const double angle = 2 * 3.14159265358979 * i / sides;
+        raw.vertices.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+      }
+    }
+  }
+  const std::uint32_t inner = sides, top = 2 * sides;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t j = (i + 1) % sides;
+    test::add(raw, {i, top + i, top + j, j});
+    test::add(raw, {inner + j, top + inner + j, top + inner + i, inner + i});
+    test::add(raw, {inner + i, i, j, inner + j});
+    test::add(raw, {top + i, top + inner + i, top + inner + j, top + j});
+  }
+  return repair_mesh(std::move(raw), "tube");
+}
+
+TEST(Vacd, ByDefaultATubeStaysOpen) {
+  for (const double inner_radius : {0.2, 0.35, 0.45, 0.47}) {
+    for (const std::uint32_t sides : {16u, 60u}) {
+      const RepairedMesh mesh = tube(inner_radius, sides);
+      const Vacd vacd = decompose(mesh);
+      EXPECT_EQ(find_violation(vacd.compound, mesh), "") << inner_radius;
+      EXPECT_LE(vacd.figures.hull_volume_ratio(), kTightHulls) << inner_radius;
+      for (const ConvexPtr& convex : vacd.compound.convexes) {
+        for (const double y : {0.02, 0.3, 0.5, 0.7, 0.98})
+          EXPECT_GT(distance_to(*convex, Vec3(0, y, 0)), 0.45 * inner_radius) << inner_radius;
+      }
+    }
+  }
+}
+
+TEST(Vacd, ByDefaultHasHullsThatAreTightOrThatTwiceAsManyNodesHardlyImprove) {
+  for (const std::string& name : test::good_names()) {
+    const RepairedMesh mesh = repair_mesh(test::make_good(name), name);
+    const Vacd vacd = decompose(mesh);
+    if (vacd.figures.hull_volume_ratio() <= kTightHulls) continue;
+    VacdOptions more;
+    more.node_count = static_cast<std::uint32_t>(2 * vacd.compound.convexes.size());
+    EXPECT_GT(decompose(mesh, more).figures.hull_volume_ratio() - 1,
+              0.8 * (vacd.figures.hull_volume_ratio() - 1))
+        << name << ": " << vacd.compound.convexes.size() << " convexes";
+  }
+}
+
 TEST(Vacd, NeverMakesAPieceOfMorePolygonsThanAllowed) {
   const RepairedMesh mesh = repair_mesh(test::make_good("knot"), "knot");
   VacdOptions options;

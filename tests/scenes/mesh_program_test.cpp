@@ -191,6 +191,75 @@ std::string open_tetrahedron() {
   return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
 }
 
+/// Writes a mesh as OBJ, moved by a vector, with the digits of its doubles.
+void write_obj(const std::string& file, const RawMesh& mesh, const Vec3& by) {
+  std::ofstream out(file);
+  out.precision(17);
+  for (const Vec3& v : mesh.vertices) {
+    const Vec3 at = v + by;
+    out << "v " << at.x() << ' ' << at.y() << ' ' << at.z() << '\n';
+  }
+  for (const test::Polygon& polygon : test::polygons_of(mesh)) {
+    out << 'f';
+    for (const std::uint32_t corner : polygon) out << ' ' << corner + 1;
+    out << '\n';
+  }
+}
+
+TEST(Fracture, OfAMeshFarFromItsOriginEqualsThatAtTheOriginMoved) {
+  for (const std::string& name : test::good_names()) {
+    const RawMesh mesh = test::make_good(name);
+    const auto pieces_at = [&](const Vec3& by, Figures& json) {
+      const Folder folder;
+      write_obj(folder / "mesh.obj", mesh, by);
+      const std::string point = std::to_string(by.x() + 0.1) + "," + std::to_string(by.y()) + "," +
+                                std::to_string(by.z());
+      json = figures("fracture " + folder / "mesh.obj" + " --nodes 5 --pattern voronoi:20 --at " +
+                     point + " -o " + folder / "pieces/");
+      std::vector<Box> boxes;
+      for (std::int64_t i = 0; i < count(json, "/pieces"); ++i) {
+        std::string number = std::to_string(i);
+        if (!std::filesystem::exists(folder / ("pieces/piece_" + number + ".obj")))
+          number = "0" + number;
+        Box& box = boxes.emplace_back();
+        for (const Vec3& v : read_mesh(folder / ("pieces/piece_" + number + ".obj")).vertices)
+          box.extend(Vec3(v - by));
+      }
+      return boxes;
+    };
+    Figures at_origin;
+    const std::vector<Box> own = pieces_at(Vec3::Zero(), at_origin);
+    for (const double far : {1e3, -1e4, 1e5}) {
+      Figures json;
+      const std::vector<Box> moved = pieces_at(Vec3(far, far, -far), json);
+      for (const char* key : {"/pieces", "/convexes", "/watertight_pieces", "/walled_pieces"})
+        EXPECT_EQ(count(json, key), count(at_origin, key)) << name << ", " << far << ", " << key;
+      ASSERT_EQ(moved.size(), own.size()) << name << ", " << far;
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        EXPECT_LT((moved[i].min - own[i].min).norm(), 1e-6) << name << ", " << far << ": " << i;
+        EXPECT_LT((moved[i].max - own[i].max).norm(), 1e-6) << name << ", " << far << ": " << i;
+      }
+    }
+  }
+}
+
+TEST(Vacd, NamesHullsThatRemainLoose) {
+  const Folder folder;
+  write_obj(folder / "star.obj", test::make_star(40, 0.3), Vec3::Zero());
+  const Outcome loose = sunder("vacd " + folder / "star.obj");
+  EXPECT_EQ(loose.exit_code, 0);
+  EXPECT_NE(loose.err.find("times its volume"), std::string::npos) << loose.err;
+  const Outcome told = sunder("vacd " + folder / "star.obj" + " --nodes 3");
+  EXPECT_EQ(told.err, "") << "as its user wanted";
+  RawMesh pegs;
+  for (int i = 0; i < 7; ++i)
+    test::append(pegs, test::make_block(Vec3(2 * i, 0, 0), Vec3(2 * i + 1, 1, 1), false));
+  write_obj(folder / "pegs.obj", pegs, Vec3::Zero());
+  const Outcome few = sunder("vacd " + folder / "pegs.obj" + " --convexes 5");
+  EXPECT_NE(few.err.find("7 convexes in place of 5"), std::string::npos) << few.err;
+  EXPECT_EQ(sunder("vacd " + folder / "pegs.obj" + " --convexes 7").err, "");
+}
+
 TEST(Vacd, GivesItsFiguresAndNamesRepairs) {
   const Folder folder;
   const std::string mesh = folder / "t.obj";

@@ -74,28 +74,37 @@ scenes::SolidBreak break_of(const Material& material, double energy_J) {
 struct Broken {
   BreakPlan plan;
   double volume_m3 = 0;
+  std::size_t convexes = 0;    ///< Number of convexes before the break.
+  Vec3 origin = Vec3::Zero();  ///< Of the solid that was broken, in the coordinates of the mesh.
 
   double failed_fraction() const { return plan.failed_m3 / volume_m3; }
 };
 
 Broken broken(const Compound& compound, const scenes::SolidBreak& options) {
   scenes::PreparedSolidBreak ready(compound, scenes::break_command(compound, options));
-  return {std::move(ready).apply(ready.plan()), volume(compound)};
+  return {std::move(ready).apply(ready.plan()), volume(compound), compound.convexes.size()};
+}
+
+Broken broken_solid(const std::string& mesh, const scenes::MeshOptions& of,
+                    scenes::SolidBreak options) {
+  const scenes::MeshSolid solid = scenes::make_mesh_solid(mesh, of);
+  if (options.at_R) *options.at_R -= solid.origin;
+  Broken all = broken(solid.compound, options);
+  all.origin = solid.origin;
+  return all;
 }
 
 /// Makes a compound of the mesh that a text names, and breaks it; with more nodes, if too much of
 /// the mesh is left whole.
 Broken broken_mesh(const std::string& mesh, const scenes::SolidBreak& options) {
-  const MaterialIndex material(std::size_t{0});
-  const Compound first = scenes::make_compound(mesh, material);
-  Broken best = broken(first, options);
-  scenes::NodeRetries retries(first.convexes.size());
+  Broken best = broken_solid(mesh, {}, options);
+  scenes::NodeRetries retries(best.convexes);
   while (!scenes::is_built_in_solid(mesh)) {
     const std::optional<std::uint32_t> nodes = retries.next(best.failed_fraction());
     if (!nodes) break;
     scenes::MeshOptions more;
     more.nodes = std::to_string(*nodes);
-    Broken next = broken(scenes::make_compound(mesh, material, more), options);
+    Broken next = broken_solid(mesh, more, options);
     if (next.plan.failed_m3 < best.plan.failed_m3) best = std::move(next);
   }
   return best;
@@ -112,11 +121,14 @@ std::vector<Piece> pieces_of(Broken broken, std::string& warning) {
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
     Piece piece;
-    piece.surface = std::make_shared<const PieceSurface>(surface_of(model.parts[i].shells));
+    PieceSurface surface = surface_of(model.parts[i].shells);
+    for (Vec3& vertex : surface.vertices) vertex += broken.origin;
+    piece.surface = std::make_shared<const PieceSurface>(std::move(surface));
     for (const Model::Shell& shell : model.parts[i].shells) {
       piece.mass = piece.mass + mass_properties(*shell.mesh);
     }
-    piece.compound = std::move(plan.pieces[i]);
+    piece.mass.centroid += broken.origin;
+    piece.compound = scenes::moved(plan.pieces[i], broken.origin);
     pieces.push_back(std::move(piece));
   }
   if (model.parts_with_walls > 0) {

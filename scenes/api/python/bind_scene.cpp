@@ -134,7 +134,7 @@ Asset asset_of_triangles(const Points& vertices, const Triangles& triangles,
   const py::gil_scoped_release release;
   scenes::MeshSolid solid = scenes::make_mesh_solid(std::move(mesh), "the mesh", options);
   scenes::set_materials(solid.compound, {index});
-  return Asset(std::move(solid.compound), names_of(material));
+  return Asset(scenes::moved(solid.compound, solid.origin), names_of(material));
 }
 
 /// Inserts a material of a name that a scene does not have, or replaces the one that it has.
