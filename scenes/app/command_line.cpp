@@ -413,6 +413,9 @@ void add_vacd(CLI::App& program, Command& chosen) {
       "--watch", options.watch,
       "Repeat, and redraw -o, whenever the file of --nodes changes, until stopped");
   add_solids_output(command);
+  command.app->add_option("--hulls", options.hulls,
+                          "Write the collision hulls alone: X.glb, with nodes that engines take "
+                          "for such (UCX_..., ...-convcolonly), or X.obj, with an object per hull");
 }
 
 void add_hull(CLI::App& program, Command& chosen) {

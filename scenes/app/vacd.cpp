@@ -6,6 +6,9 @@
 #include <thread>
 
 #include "engine/base/check.h"
+#include "engine/io/file_ending.h"
+#include "engine/io/mesh/glb_writer.h"
+#include "engine/io/mesh/obj_writer.h"
 #include "scenes/app/commands.h"
 #include "scenes/app/mesh_report.h"
 #include "scenes/app/work_progress.h"
@@ -55,6 +58,30 @@ std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
   return convexes;
 }
 
+void check_hulls(const std::string& file) {
+  if (file.empty() || has_ending(file, ".glb") || has_ending(file, ".obj")) return;
+  throw InputError("--hulls " + file + ": expected X.glb or X.obj");
+}
+
+/// Writes the polyhedra of a compound, a part each, by names that Unreal ("UCX_mesh_1") and Godot
+/// ("...-convcolonly") take for collision hulls.
+void write_hulls(const std::string& file, const scenes::MeshSolid& solid) {
+  Compound bare = solid.compound;
+  for (ConvexPtr& convex : bare.convexes) {
+    const auto hull = std::make_shared<Convex>(*convex);
+    hull->visual = nullptr;
+    convex = hull;
+  }
+  const std::vector<Material> materials = stone();
+  Model model = make_model(one_by_one(bare, materials.size()), materials, 0, {}, Walls::kKeep);
+  const std::string mesh = fs::path(solid.name).stem().string();
+  for (std::size_t i = 0; i < model.parts.size(); ++i) {
+    model.parts[i].name = "UCX_" + mesh + "_" + std::to_string(i + 1) + "-convcolonly";
+    model.parts[i].offset += solid.origin;
+  }
+  has_ending(file, ".obj") ? write_obj(file, model) : write_glb(file, model);
+}
+
 void decompose_once(const VacdOptions& options) {
   scenes::MeshOptions mesh = options.solid;
   std::optional<WorkProgress> progress(std::in_place, options.mesh, options.quiet);
@@ -69,6 +96,10 @@ void decompose_once(const VacdOptions& options) {
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
                  options.explode, Walls::kKeep, solid.origin);
     options.print("wrote " + options.output + "\n");
+  }
+  if (!options.hulls.empty()) {
+    write_hulls(options.hulls, solid);
+    options.print("wrote " + options.hulls + "\n");
   }
   options.write_json(format_figures(figures_of(solid, mesh.scale, double_counted)));
 }
@@ -100,6 +131,7 @@ int vacd(const VacdOptions& options) {
                      ": a built-in solid is made of convexes already; give a mesh file");
   }
   check_output(options.output);
+  check_hulls(options.hulls);
   scenes::vacd_options(options.solid);
   if (!options.watch) {
     decompose_once(options);

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include <gtest/gtest.h>
 
+#include "engine/geometry/repair/repair.h"
 #include "engine/io/figures.h"
 #include "engine/io/mesh/mesh_reader.h"
 #include "fracture/check/case_file.h"
@@ -216,22 +218,22 @@ TEST(Fracture, OfAMeshFarFromItsOriginEqualsThatAtTheOriginMoved) {
                                 std::to_string(by.z());
       json = figures("fracture " + folder / "mesh.obj" + " --nodes 5 --pattern voronoi:20 --at " +
                      point + " -o " + folder / "pieces/");
-      std::vector<Box> boxes;
+      std::vector<sunder::Box> boxes;
       for (std::int64_t i = 0; i < count(json, "/pieces"); ++i) {
         std::string number = std::to_string(i);
         if (!std::filesystem::exists(folder / ("pieces/piece_" + number + ".obj")))
           number = "0" + number;
-        Box& box = boxes.emplace_back();
+        sunder::Box& box = boxes.emplace_back();
         for (const Vec3& v : read_mesh(folder / ("pieces/piece_" + number + ".obj")).vertices)
           box.extend(Vec3(v - by));
       }
       return boxes;
     };
     Figures at_origin;
-    const std::vector<Box> own = pieces_at(Vec3::Zero(), at_origin);
+    const std::vector<sunder::Box> own = pieces_at(Vec3::Zero(), at_origin);
     for (const double far : {1e3, -1e4, 1e5}) {
       Figures json;
-      const std::vector<Box> moved = pieces_at(Vec3(far, far, -far), json);
+      const std::vector<sunder::Box> moved = pieces_at(Vec3(far, far, -far), json);
       for (const char* key : {"/pieces", "/convexes", "/watertight_pieces", "/walled_pieces"})
         EXPECT_EQ(count(json, key), count(at_origin, key)) << name << ", " << far << ", " << key;
       ASSERT_EQ(moved.size(), own.size()) << name << ", " << far;
@@ -258,6 +260,45 @@ TEST(Vacd, NamesHullsThatRemainLoose) {
   const Outcome few = sunder("vacd " + folder / "pegs.obj" + " --convexes 5");
   EXPECT_NE(few.err.find("7 convexes in place of 5"), std::string::npos) << few.err;
   EXPECT_EQ(sunder("vacd " + folder / "pegs.obj" + " --convexes 7").err, "");
+}
+
+TEST(Vacd, WritesItsHullsForEngines) {
+  const Folder folder;
+  const Vec3 far(1e4, 0, 0);
+  write_obj(folder / "ring.obj", test::make_ring(40), far);
+  const std::string command = "vacd " + folder / "ring.obj" + " --hulls " + folder / "hulls";
+  const Figures json = figures(command + ".obj");
+  EXPECT_EQ(sunder(command + ".glb").exit_code, 0);
+  EXPECT_EQ(sunder(command + ".fbx").exit_code, 2);
+  for (const char* kind : {"obj", "glb"}) {
+    const RawMesh hulls = read_mesh(folder / (std::string("hulls.") + kind));
+    std::map<std::string, RawMesh> by_name;
+    for (const RawMesh::Polygon& polygon : hulls.polygons) {
+      ASSERT_LT(polygon.group, hulls.groups.size()) << kind;
+      const std::vector<std::string>& names = hulls.groups[polygon.group].names;
+      const auto name = std::ranges::find_if(
+          names, [](const std::string& of) { return of.starts_with("UCX_ring_"); });
+      ASSERT_NE(name, names.end()) << kind;
+      EXPECT_TRUE(name->ends_with("-convcolonly")) << *name;
+      RawMesh& hull = by_name[*name];
+      hull.vertices = hulls.vertices;
+      hull.polygons.push_back(
+          {static_cast<std::uint32_t>(hull.corners.size()), polygon.corner_count});
+      for (std::uint32_t i = 0; i < polygon.corner_count; ++i)
+        hull.corners.push_back(hulls.corners[polygon.first_corner + i]);
+    }
+    EXPECT_EQ(static_cast<std::int64_t>(by_name.size()), count(json, "/convexes")) << kind;
+    double volume_m3 = 0;
+    for (auto& [name, hull] : by_name) {
+      for (Vec3& vertex : hull.vertices) vertex -= far;
+      const RepairedMesh closed = repair_mesh(std::move(hull), name);
+      EXPECT_TRUE(closed.closed) << kind << ": " << name;
+      for (const PolygonMesh& shell : closed.shells) volume_m3 += mass_properties(shell).volume_m3;
+    }
+    EXPECT_NEAR(volume_m3, number(json, "/hull_volume_ratio") * number(json, "/volume_m3"),
+                1e-3 * volume_m3)
+        << kind;
+  }
 }
 
 TEST(Vacd, GivesItsFiguresAndNamesRepairs) {

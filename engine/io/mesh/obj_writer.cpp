@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "engine/geometry/triangulate_face.h"
 #include "engine/io/bytes.h"
 #include "engine/io/mesh/export_folder.h"
 #include "engine/io/text_writer.h"
@@ -68,6 +69,27 @@ bool is_own(const std::string& name) {
 }
 
 }  // namespace
+
+void write_obj(const fs::path& file, const Model& model) {
+  TextWriter out;
+  std::size_t first = 1;
+  for (const Model::Part& part : model.parts) {
+    out << "o " << as_word(part.name) << "\n";
+    for (const Model::Shell& shell : part.shells) {
+      const PolygonMesh& mesh = *shell.mesh;
+      for (const Vec3& vertex : mesh.vertices) out << "v " << Vec3(vertex + part.offset) << "\n";
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        for (const Triangle& corners : triangulate(mesh, f)) {
+          out << "f";
+          for (const std::uint32_t corner : corners) out << " " << first + mesh.corners[corner];
+          out << "\n";
+        }
+      }
+      first += mesh.vertices.size();
+    }
+  }
+  write_file(file, out.text);
+}
 
 void write_obj_folder(const fs::path& place, const Model& model) {
   ExportFolder folder(place, is_own);

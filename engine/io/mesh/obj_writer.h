@@ -1,4 +1,4 @@
-// Writing of Wavefront OBJ, one file per part.
+// Writing of Wavefront OBJ, one file per part or one in all.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,9 @@
 
 namespace sunder {
 
+/// Writes one .obj with an object per part, in double precision and without materials. Throws
+/// FileError if it cannot be written.
+void write_obj(const std::filesystem::path& file, const Model& model);
 /// Writes a folder with one .obj of triangles per part, in double precision, and materials.mtl. The
 /// folder is created under a temporary name and renamed; an existing folder is replaced if it has
 /// only such files. Throws InputError if it has other files, and FileError if it cannot be written.
