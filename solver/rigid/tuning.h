@@ -110,6 +110,8 @@ inline constexpr float kMinInnerRadius = 0.02f;
 
 /// Overlap from which a contact is deep (decision 020).
 inline constexpr float kDeepOverlap = 0.1f;
+/// Overlap at the start of a step from which a shape that passes through another is not put back.
+inline constexpr float kPassageOverlap = 0.5f;
 /// Overlap of two balls of the inner radii from which shapes of a dense cluster may be skipped; a
 /// fraction of the sum of the radii.
 inline constexpr float kDenseOverlap = kDeepOverlap;

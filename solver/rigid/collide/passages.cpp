@@ -24,23 +24,34 @@ struct Passage {
   double part;
 };
 
-/// Paths of bodies between the start of the step and its end.
-struct Paths {
+/// TakenPath of a body between the start of the step and its end.
+struct TakenPath {
+  Pose start, end;
+  Vec3 turn_W = Vec3::Zero();
+
+  Pose at(double part) const {
+    if (part == 0) return start;
+    if (part == 1) return end;
+    return {start.position + part * (end.position - start.position),
+            turn_W.isZero(0) ? end.rotation : rotation_by(part * turn_W) * start.rotation};
+  }
+};
+
+/// TakenPaths of all bodies.
+struct TakenPaths {
   const ByBody<Vec3>& position;
   const ByBody<Quat>& rotation;
   const Bodies& bodies;
 
-  bool moved(BodySlot body) const { return bodies.awake(body) || bodies.is_moving_kinematic(body); }
-  Pose at(BodySlot body, double part) const {
-    const Pose end{bodies.position[body], bodies.rotation[body]};
-    if (!moved(body)) return end;
-    return {position[body] + part * (end.position - position[body]),
-            rotation_by(part * turn_W(body)) * rotation[body]};
+  bool moves(BodySlot body) const { return bodies.awake(body) || bodies.is_moving_kinematic(body); }
+  TakenPath operator[](BodySlot body) const {
+    TakenPath path;
+    path.end = path.start = {bodies.position[body], bodies.rotation[body]};
+    if (!moves(body)) return path;
+    path.start = {position[body], rotation[body]};
+    path.turn_W = rotation_vector(path.end.rotation * path.start.rotation.conjugate());
+    return path;
   }
-  Vec3 turn_W(BodySlot body) const {
-    return rotation_vector(bodies.rotation[body] * rotation[body].conjugate());
-  }
-  double angle(BodySlot body) const { return moved(body) ? turn_W(body).norm() : 0; }
 };
 
 /// Returns the part of a straight way, in the frame of the shape, at which it goes into the shape
@@ -75,12 +86,30 @@ std::optional<double> entry(const Shape& shape, const Vec3& from, const Vec3& to
   return enter;
 }
 
+/// Two shapes and the paths of their bodies.
+struct Passing {
+  const Shape &a, &b;
+  const TakenPath &path_a, &path_b;
+
+  /// Pose of b in a.
+  RelativePose pose(double part) const {
+    const Pose at_a = path_a.at(part), at_b = path_b.at(part);
+    const Quat back = at_a.rotation.conjugate();
+    return {(back * at_b.rotation).toRotationMatrix().cast<float>(),
+            (back * (at_b.position - at_a.position)).cast<float>()};
+  }
+  double separation_m(double part, NarrowScratch& scratch) const {
+    return double{solver::separation_m(a, b, pose(part), scratch)};
+  }
+};
+
 /// Returns the part of the paths at which the centre of `of` goes into `into`.
-std::optional<double> entry(const Paths& paths, const Shape& of, const Shape& into) {
-  const double angle = paths.angle(of.body) + paths.angle(into.body);
+std::optional<double> entry(const Shape& of, const TakenPath& path, const Shape& into,
+                            const TakenPath& path_into) {
+  const double angle = path.turn_W.norm() + path_into.turn_W.norm();
   const int parts = std::clamp(static_cast<int>(std::ceil(angle / kPartAngle)), 1, kMostParts);
   const auto place = [&](double part) -> Vec3 {
-    const Pose own = paths.at(of.body, part), other = paths.at(into.body, part);
+    const Pose own = path.at(part), other = path_into.at(part);
     const Vec3 center_W = own.position - other.position + own.rotation * of.center.cast<double>();
     return other.rotation.conjugate() * center_W;
   };
@@ -93,49 +122,87 @@ std::optional<double> entry(const Paths& paths, const Shape& of, const Shape& in
   return {};
 }
 
-/// Returns the last part of the paths before `part` at which the shapes did not overlap.
-double before_touch(const Paths& paths, const Shape& a, const Shape& b, double part,
-                    NarrowScratch& scratch) {
-  double apart = 0, overlapping = part;
+/// Returns the last part of the paths before `part` at which the shapes did not overlap, or no more
+/// than at the start; none if they overlapped deeply then, as contacts push such shapes apart.
+std::optional<double> before_touch(const Passing& pair, double part, NarrowScratch& scratch) {
+  const float size_m = std::min(pair.a.inner_radius_m, pair.b.inner_radius_m);
+  const double at_start_m = std::min(0., pair.separation_m(0, scratch));
+  if (at_start_m < -double{kPassageOverlap * size_m}) return {};
+  double before = 0, after = part;
   for (int round = 0; round < kTouchRounds; ++round) {
-    const double middle = 0.5 * (apart + overlapping);
-    const Pose at_a = paths.at(a.body, middle), at_b = paths.at(b.body, middle);
-    const Quat back = at_a.rotation.conjugate();
-    const RelativePose pose{(back * at_b.rotation).toRotationMatrix().cast<float>(),
-                            (back * (at_b.position - at_a.position)).cast<float>()};
-    (separation_m(a, b, pose, scratch) >= 0 ? apart : overlapping) = middle;
+    const double middle = 0.5 * (before + after);
+    (pair.separation_m(middle, scratch) >= at_start_m ? before : after) = middle;
   }
-  return apart;
+  return before;
 }
 
-/// Returns the passages of the shapes of a body.
-void find_passages(BodySlot body, const Paths& paths, const BroadPhase& broad_phase,
+/// Positions in W of the centre of a shape, at the start of the step and at its end.
+struct CenterPath {
+  Vec3 from, to;
+};
+
+CenterPath center_path(const Shape& shape, const TakenPaths& paths) {
+  const Vec3 center = shape.center.cast<double>();
+  const auto at = [&](const Vec3& position, const Quat& rotation) -> Vec3 {
+    return position + rotation * center;
+  };
+  const Bodies& bodies = paths.bodies;
+  const BodySlot body = shape.body;
+  const Vec3 to = at(bodies.position[body], bodies.rotation[body]);
+  return {paths.moves(body) ? at(paths.position[body], paths.rotation[body]) : to, to};
+}
+
+/// Distance from the centre of a shape beyond which it has no point.
+double radius_m(const Shape& shape) {
+  return shape.kind == Kind::kHalfSpace ? 1e30 : double{shape.reach_m + shape.center.norm()};
+}
+
+/// True if one of two centres, which move straight, comes within a distance of the other.
+bool come_near(const CenterPath& a, const CenterPath& b, double distance_m) {
+  const Vec3 from = b.from - a.from, way = b.to - a.to - from;
+  const double square = way.squaredNorm();
+  const double part = square > 0 ? std::clamp(-from.dot(way) / square, 0., 1.) : 0;
+  return (from + part * way).squaredNorm() < distance_m * distance_m;
+}
+
+/// Appends the passages of the shapes of a body through others, and of others through them.
+void find_passages(BodySlot body, const TakenPaths& paths, const BroadPhase& broad_phase,
                    std::span<const ShapeSlot> strays, const Shapes& shapes, const Joints& joints,
                    std::vector<Passage>& found) {
   const Bodies& bodies = paths.bodies;
-  const Vec3 from = paths.position[body], to = bodies.position[body];
-  const auto reach = static_cast<float>(bodies.reach_m[body]);
-  const Vec3f low = from.cwiseMin(to).cast<float>(), high = from.cwiseMax(to).cast<float>();
-  const float pad =
-      reach + 4e-7f * (low.cwiseAbs().maxCoeff() + high.cwiseAbs().maxCoeff() + reach);
-  const FloatBox box{low - Vec3f::Constant(pad), high + Vec3f::Constant(pad)};
+  const TakenPath path = paths[body];
   NarrowScratch scratch;
-  broad_phase.in_box(box, strays, [&](ShapeSlot other) {
-    const BodySlot other_body = shapes[other].body;
-    if (other_body == body || !bodies.filter[body].collides_with(bodies.filter[other_body])) return;
-    for (ShapeSlot own = bodies.first_shape[body]; !own.none(); own = shapes[own].next) {
+  for (ShapeSlot own = bodies.first_shape[body]; !own.none(); own = shapes[own].next) {
+    const Shape& shape = shapes[own];
+    const CenterPath way = center_path(shape, paths);
+    if (!((way.to - way.from).norm() > double{shape.inner_radius_m})) continue;
+    const Vec3f low = way.from.cwiseMin(way.to).cast<float>(),
+                high = way.from.cwiseMax(way.to).cast<float>();
+    const float pad = static_cast<float>(radius_m(shape)) +
+                      4e-7f * (low.cwiseAbs().maxCoeff() + high.cwiseAbs().maxCoeff());
+    const FloatBox box{low - Vec3f::Constant(pad), high + Vec3f::Constant(pad)};
+    broad_phase.in_box(box, strays, [&](ShapeSlot other) {
+      const Shape& into = shapes[other];
+      if (into.body == body || !bodies.filter[body].collides_with(bodies.filter[into.body])) return;
+      const double near_m = std::max(radius_m(shape), radius_m(into));
+      if (!come_near(way, center_path(into, paths), near_m)) return;
+      const TakenPath other_path = paths[into.body];
+      std::optional<double> part = entry(shape, path, into, other_path);
+      if (!part && into.kind != Kind::kHalfSpace) part = entry(into, other_path, shape, path);
+      if (!part) return;
       const Pair pair = pair_of(own, other, shapes);
-      const Shape &a = shapes[pair.shape_a], &b = shapes[pair.shape_b];
-      std::optional<double> part = entry(paths, b, a);
-      if (b.kind == Kind::kHull && a.kind != Kind::kHalfSpace && !part) part = entry(paths, a, b);
-      if (!part || joints.ignores(pair, shapes, bodies)) continue;
-      found.push_back({pair.body_a, pair.body_b, before_touch(paths, a, b, *part, scratch)});
-    }
-  });
+      if (joints.ignores(pair, shapes, bodies)) return;
+      const bool is_a = pair.body_a == body;
+      const Passing both{shapes[pair.shape_a], shapes[pair.shape_b], is_a ? path : other_path,
+                         is_a ? other_path : path};
+      if (const std::optional<double> touch = before_touch(both, *part, scratch))
+        found.push_back({pair.body_a, pair.body_b, *touch});
+    });
+  }
 }
 
-/// True if the centre of a shape of the body moved by more than the way to the shape's surface.
-bool is_fast(BodySlot body, const Paths& paths, const Shapes& shapes) {
+/// True if the body moved by more than the way from the centre of a shape to its surface.
+bool is_fast(BodySlot body, const TakenPaths& paths, const Shapes& shapes) {
   const Bodies& bodies = paths.bodies;
   if (!bodies.awake(body)) return false;
   const double way_m = (bodies.position[body] - paths.position[body]).norm();
@@ -155,7 +222,7 @@ void Passages::begin(const Bodies& bodies) {
 std::size_t Passages::put_back(const BroadPhase& broad_phase, const Shapes& shapes,
                                const Joints& joints, Bodies& bodies) const {
   constexpr std::size_t kBodies = 256;
-  const Paths paths{position_, rotation_, bodies};
+  const TakenPaths paths{position_, rotation_, bodies};
   const auto fast = collect_chunks<BodySlot>(
       bodies.size(), kBodies,
       [&](std::size_t begin, std::size_t end, std::vector<BodySlot>& found) {
@@ -189,8 +256,9 @@ std::size_t Passages::put_back(const BroadPhase& broad_phase, const Shapes& shap
     }
   }
   for (const BodySlot body : returned) {
-    const Pose pose = paths.at(body, part[body]);
-    bodies.rotation_path_m[body] += 1.1 * paths.angle(body) * bodies.reach_m[body];
+    const TakenPath path = paths[body];
+    const Pose pose = path.at(part[body]);
+    bodies.rotation_path_m[body] += 1.1 * path.turn_W.norm() * bodies.reach_m[body];
     bodies.place(body, pose.position, pose.rotation);
     bodies.changed[body] = 1;
   }

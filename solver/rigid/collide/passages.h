@@ -11,7 +11,8 @@
 
 namespace sunder::solver {
 
-/// Puts back what the contacts of a step did not stop: shapes whose centre went into another shape.
+/// Puts back what the contacts of a step did not stop: shapes that were apart from another, and
+/// whose centre went into it.
 /// Both bodies return to where they were before they met, with the velocities that they have, and
 /// the next step finds their contact.
 class Passages {
