@@ -173,6 +173,8 @@ inline constexpr double kMinPrismParallelism = 0.999;
 /// Number of nodes by default, as a multiple of the least number by the limit of polygons: pieces
 /// have unequal numbers of polygons.
 inline constexpr double kNodesPerFullPiece = 1.5;
+/// Largest volume of all hulls, over that of the mesh, at which hulls are tight.
+inline constexpr double kTightHulls = 1.15;
 /// Maximum number of nodes to which the number is doubled by default.
 inline constexpr std::uint32_t kMostChosenNodes = 192;
 /// Slack of hulls with twice the nodes, over that before, above which they are hardly tighter.

@@ -57,7 +57,7 @@ SYNTAX = {
         ["sunder fracture box:1,1,1 --pattern voronoi:8",
          "sunder fracture tetrahedron.obj --pattern grid:2 --at 0,0,0 --radius 0.5"],
     "sunder fracture X.case": [],  # no command writes a case at will; tests/fracture has cases
-    "sunder vacd MESH [--nodes N|FILE] [--convexes N] [-o X.glb|X.png|DIR/]":
+    "sunder vacd MESH [--nodes N|FILE] [--convexes N] [-o X.glb|X.png|DIR/] [--hulls X.glb|X.obj]":
         ["sunder vacd tetrahedron.obj", "sunder vacd tetrahedron.obj --nodes 2 -o x.glb",
          "sunder vacd tetrahedron.obj --nodes set.nodes -o x.png",
          "sunder vacd tetrahedron.obj --convexes 2 -o pieces/"],

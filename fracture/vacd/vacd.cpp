@@ -187,6 +187,8 @@ Vacd decompose_as_told(const RepairedMesh& mesh, const VacdOptions& options) {
 
 }  // namespace
 
+bool VacdFigures::has_tight_hulls() const { return hull_volume_ratio() <= kTightHulls; }
+
 Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   check_options(options);
   if (!options.chooses_nodes()) return decompose_as_told(mesh, options);
@@ -195,8 +197,7 @@ Vacd decompose(const RepairedMesh& mesh, const VacdOptions& options) {
   Vacd best = decompose_as_told(mesh, chosen);
   double split_ms = best.figures.split_ms, total_ms = best.figures.total_ms;
   const auto slack = [](const Vacd& vacd) { return vacd.figures.hull_volume_ratio() - 1; };
-  while (best.figures.hull_volume_ratio() > kTightHulls &&
-         *chosen.node_count <= kMostChosenNodes / 2) {
+  while (!best.figures.has_tight_hulls() && *chosen.node_count <= kMostChosenNodes / 2) {
     *chosen.node_count *= 2;
     Vacd next = decompose_as_told(mesh, chosen);
     split_ms += next.figures.split_ms, total_ms += next.figures.total_ms;

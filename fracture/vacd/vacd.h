@@ -18,7 +18,7 @@
 
 namespace sunder::fracture {
 
-inline constexpr std::uint32_t kFewestNodes = 12;  ///< Least number of nodes by default.
+inline constexpr std::uint32_t kFewestNodes = 12;   ///< Least number of nodes by default.
 inline constexpr std::uint32_t kMostNodes = 10000;  ///< Maximum number of nodes and of convexes.
 inline constexpr std::uint32_t kDefaultPolygons = 10000;  ///< Default limit of polygons per piece.
 
@@ -28,8 +28,8 @@ struct VacdOptions {
       /// Sites of Voronoi cells in the mesh's coordinates, placed by hand; empty: automatic.
       nodes;
   /// Number of automatic nodes of all shells together. By default none if `convexes` is given, and
-  /// else as many as make hulls of at most kTightHulls times the volume of the mesh: the number is
-  /// doubled until they do, or until that makes them hardly tighter.
+  /// else as many as make tight hulls: the number is doubled until they are, or until that makes
+  /// them hardly tighter.
   std::optional<std::uint32_t> node_count;
   /// Maximum number of convexes, which is reached if more convexes make tighter hulls; 0: as many
   /// as the nodes make. There are never fewer convexes than shells, as a convex owns one connected
@@ -66,6 +66,8 @@ struct VacdFigures {
   double total_ms = 0;
 
   double hull_volume_ratio() const { return hull_volume_m3 / mesh_volume_m3; }
+  /// True if the hulls have at most 1.15 times the volume of the mesh.
+  bool has_tight_hulls() const;
 };
 
 /// Result of a decomposition.
@@ -73,9 +75,6 @@ struct Vacd {
   Compound compound;
   VacdFigures figures;
 };
-
-/// Largest volume of all hulls, over that of the mesh, at which hulls are tight.
-inline constexpr double kTightHulls = 1.15;
 
 /// Decomposes a mesh into convexes, each of which owns one connected, watertight piece of a shell
 /// in one of disjoint convex regions. The pieces add up to the mesh without the parts that are

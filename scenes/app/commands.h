@@ -158,7 +158,7 @@ struct VacdOptions : CommonOptions {
   scenes::MeshOptions solid;
   bool watch = false;
   std::string output;
-  std::string hulls;  ///< File for the collision hulls; empty: none.
+  std::string hulls;              ///< File for the collision hulls; empty: none.
   std::optional<double> explode;  ///< Distance factor of pieces; none: the default of the output.
 };
 

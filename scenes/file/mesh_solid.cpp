@@ -65,12 +65,14 @@ void scale_mesh(RawMesh& mesh, const MeshOptions& options, fracture::VacdOptions
 /// Moves a mesh that is far from its origin to its middle, which it returns, rounded to a multiple
 /// of a power of two above its size, so that what is moved and what was not have the same bits.
 Vec3 move_to_middle(RawMesh& mesh, fracture::VacdOptions& vacd) {
-  constexpr double kFar = 16;  // distance from the origin, in sizes
+  constexpr double kSizesAway = 16;
   Box box;
   for (const std::uint32_t vertex : mesh.corners) box.extend(mesh.vertices[vertex]);
   const double size_m = box.empty() ? 0 : box.extent().maxCoeff();
-  if (!(box.center().cwiseAbs().maxCoeff() > kFar * size_m)) return Vec3::Zero();
-  const double unit_m = size_m > 0 ? std::exp2(std::ceil(std::log2(size_m))) : 1;
+  if (!(box.center().cwiseAbs().maxCoeff() > kSizesAway * size_m)) return Vec3::Zero();
+  int exponent = 0;
+  std::frexp(size_m, &exponent);
+  const double unit_m = std::ldexp(1, exponent);
   const Vec3 middle = unit_m * (box.center() / unit_m).array().round().matrix();
   for (Vec3& vertex : mesh.vertices) vertex -= middle;
   for (Vec3& node : vacd.nodes) node -= middle;
@@ -167,18 +169,18 @@ std::string missing_warning(const std::string& file, const std::vector<std::stri
 
 /// Returns a warning if a decomposition is not as its user may expect; empty if it is.
 std::string decomposition_warning(const std::string& file, const fracture::VacdOptions& options,
-                                  const Compound& compound, double hull_volume_ratio) {
-  const std::size_t made = compound.convexes.size();
+                                  const MeshSolid& solid) {
+  const std::size_t made = solid.compound.convexes.size();
   if (options.convexes > 0 && made > options.convexes)
     return file + ": it has " + std::to_string(made) + " separate parts, each of which needs a " +
            "convex, so that there are " + std::to_string(made) + " convexes in place of " +
            std::to_string(options.convexes);
-  if (!options.chooses_nodes() || hull_volume_ratio <= fracture::kTightHulls) return "";
+  if (!options.chooses_nodes() || solid.vacd->has_tight_hulls()) return "";
   char text[300];
   std::snprintf(text, sizeof text,
                 ": its %zu convexes have %.3g times its volume, so that they may close openings; "
                 "give a number of nodes or of convexes for tighter ones",
-                made, hull_volume_ratio);
+                made, solid.vacd->hull_volume_ratio());
   return file + text;
 }
 
@@ -217,8 +219,7 @@ MeshSolid decomposed(RawMesh raw, const std::string& file, fracture::VacdOptions
   solid.origin = origin;
   solid.name = std::filesystem::path(file).filename().string();
   if (!warning.empty()) solid.warnings.push_back(warning);
-  const std::string coarse =
-      decomposition_warning(file, vacd_of, solid.compound, solid.vacd->hull_volume_ratio());
+  const std::string coarse = decomposition_warning(file, vacd_of, solid);
   if (!coarse.empty()) solid.warnings.push_back(coarse);
   set_appearances(solid.compound, options.appearances
                                       ? add_appearances(appearances, *options.appearances)

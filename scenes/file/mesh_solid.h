@@ -32,7 +32,7 @@ struct MeshSolid {
   std::optional<fracture::VacdFigures> vacd;  ///< None for a compound that was not decomposed.
   /// Missing texture and material files; a coarse decomposition.
   std::vector<std::string> warnings;
-  double prepare_ms = 0;                      ///< Time of reading, repairs and decomposition.
+  double prepare_ms = 0;  ///< Time of reading, repairs and decomposition.
 };
 
 /// Throws InputError unless the scale of a built-in solid is 1.

@@ -207,7 +207,7 @@ TEST(Vacd, ByDefaultATubeStaysOpen) {
       const RepairedMesh mesh = tube(inner_radius, sides);
       const Vacd vacd = decompose(mesh);
       EXPECT_EQ(find_violation(vacd.compound, mesh), "") << inner_radius;
-      EXPECT_LE(vacd.figures.hull_volume_ratio(), kTightHulls) << inner_radius;
+      EXPECT_TRUE(vacd.figures.has_tight_hulls()) << inner_radius;
       for (const ConvexPtr& convex : vacd.compound.convexes) {
         for (const double y : {0.02, 0.3, 0.5, 0.7, 0.98})
           EXPECT_GT(distance_to(*convex, Vec3(0, y, 0)), 0.45 * inner_radius) << inner_radius;
@@ -220,7 +220,7 @@ TEST(Vacd, ByDefaultHasHullsThatAreTightOrThatTwiceAsManyNodesHardlyImprove) {
   for (const std::string& name : test::good_names()) {
     const RepairedMesh mesh = repair_mesh(test::make_good(name), name);
     const Vacd vacd = decompose(mesh);
-    if (vacd.figures.hull_volume_ratio() <= kTightHulls) continue;
+    if (vacd.figures.has_tight_hulls()) continue;
     VacdOptions more;
     more.node_count = static_cast<std::uint32_t>(2 * vacd.compound.convexes.size());
     EXPECT_GT(decompose(mesh, more).figures.hull_volume_ratio() - 1,

@@ -1,5 +1,5 @@
 // Sweeps the centres of shapes along the paths that their bodies took.
-#include "solver/rigid/collide/passages.h"
+#include "solver/rigid/passages.h"
 
 #include <algorithm>
 #include <cmath>
