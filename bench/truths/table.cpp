@@ -58,10 +58,10 @@ Line measure(const Truth& truth, const Options& options) {
 }
 
 void print_head(const Options& options) {
-  std::printf("| row | what | truth | mark |");
+  std::printf("| row | what | reference | source | mark |");
   for (const Preset& preset : kPresets)
     if (options.preset.empty() || options.preset == preset.name) std::printf(" %s |", preset.name);
-  std::printf("\n|---|---|---|---|");
+  std::printf("\n|---|---|---|---|---|");
   for (const Preset& preset : kPresets)
     if (options.preset.empty() || options.preset == preset.name) std::printf("---|");
   std::printf("\n");
@@ -69,8 +69,8 @@ void print_head(const Options& options) {
 
 void print_markdown(const Line& line) {
   const Truth& truth = line.truth;
-  std::printf("| %d | %s | %s | %s |", truth.row, truth.what, truth.source,
-              format_mark(truth).c_str());
+  std::printf("| %d | %s | %s | %s | %s |", truth.row, truth.what, truth.source,
+              name_of(source_kind(truth)), format_mark(truth).c_str());
   for (const Figure& figure : line.figures) {
     const char* bold = misses(figure.value, truth.mark) ? "**" : "";
     const char* warned = figure.told.empty() ? "" : " †";
@@ -111,7 +111,8 @@ void write_json(std::FILE* file, const std::vector<Line>& lines) {
     std::fprintf(file, "%s\n{\"row\": %d, \"what\": \"%s\", \"unit\": \"%s\", \"source\": \"%s\",",
                  &line == &lines.front() ? "" : ",", truth.row, truth.what, truth.unit,
                  truth.source);
-    std::fprintf(file, " \"mark\": %.17g, \"presets\": {", truth.mark);
+    std::fprintf(file, " \"kind\": \"%s\", \"mark\": %.17g, \"presets\": {",
+                 name_of(source_kind(truth)), truth.mark);
     for (const Figure& figure : line.figures) {
       char value[32];
       std::snprintf(value, sizeof value, "%.17g", figure.value);
@@ -140,6 +141,15 @@ int run(const Options& options, const Truths& truths) {
   std::vector<Line> lines;
   for (const Truth& truth : truths) {
     if (std::string(truth.what).find(options.only) == std::string::npos) continue;
+    const bool own = source_kind(truth) == SourceKind::kOwn;
+    if (table && options.markdown && own && !lines.empty() &&
+        source_kind(lines.back().truth) != SourceKind::kOwn) {
+      std::printf(
+          "\n## Own formulas\n\nNo truths: these rows compare with what Sunder computes by itself, "
+          "or "
+          "with Sunder at another preset.\n\n");
+      print_head(options);
+    }
     lines.push_back(measure(truth, options));
     if (table) (options.markdown ? print_markdown : print_plain)(lines.back());
     std::fflush(stdout);

@@ -1,8 +1,45 @@
 #include "bench/truths/truth.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 namespace sunder::truths {
+
+namespace {
+
+struct KnownSource {
+  std::string_view part;  ///< A part of the text of the source.
+  SourceKind kind;
+};
+constexpr KnownSource kKnownSources[] = {
+    {"Lube et al.", SourceKind::kMeasured},
+    {"Jarrett 1968", SourceKind::kMeasured},
+    {"SimBenchmark", SourceKind::kOtherEngine},
+    {"Box2D", SourceKind::kOtherEngine},
+    // What decides a perforation is computed by the same formulas.
+    {"Recht and Ipson 1963, CEA-EDF", SourceKind::kOwn},
+    {"CEA-EDF (Berriaud", SourceKind::kOwn},
+    {"through the plug", SourceKind::kOwn},
+    {"toughness × area", SourceKind::kOwn},
+    {"256 sweeps", SourceKind::kOwn},
+    {"the same at every", SourceKind::kOwn},
+    {"docs/decisions/", SourceKind::kOwn},
+};
+
+}  // namespace
+
+SourceKind source_kind(const Truth& truth) {
+  const std::string_view source = truth.source;
+  for (const KnownSource& known : kKnownSources)
+    if (source.find(known.part) != std::string_view::npos) return known.kind;
+  return SourceKind::kClosedForm;
+}
+
+const char* name_of(SourceKind kind) {
+  constexpr const char* kNames[] = {"closed form", "measured", "other engine", "own"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
 
 Truths all_truths() {
   Truths all;
@@ -14,8 +51,10 @@ Truths all_truths() {
     const Truths truths = list();
     all.insert(all.end(), truths.begin(), truths.end());
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Truth& a, const Truth& b) { return a.row < b.row; });
+  const auto place = [](const Truth& truth) {
+    return std::pair(source_kind(truth) == SourceKind::kOwn, truth.row);
+  };
+  std::ranges::stable_sort(all, {}, place);
   return all;
 }
 

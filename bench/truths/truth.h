@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -41,6 +42,14 @@ struct Truth {
 };
 using Truths = std::vector<Truth>;
 
+/// Where a reference comes from. A formula that Sunder computes by itself, and what compares Sunder
+/// with itself, is no truth.
+enum class SourceKind : std::uint8_t { kClosedForm, kMeasured, kOtherEngine, kOwn };
+/// Returns the kind of the case's source.
+SourceKind source_kind(const Truth& truth);
+/// Returns "closed form", "measured", "other engine" or "own".
+const char* name_of(SourceKind kind);
+
 /// Returns a case without warnings.
 inline Truth truth(int row, const char* what, const char* unit, const char* source, double mark,
                    Measure measure, const Bounds& bounds) {
@@ -74,7 +83,7 @@ Truths through_truths();
 Truths perforation_truths();
 Truths blast_truths();
 
-/// Returns all cases of these lists, sorted by row.
+/// Returns all cases of these lists, sorted by row; those whose source is our own are last.
 Truths all_truths();
 
 /// Returns the x in [low, high] where yes(x) turns from false to true, after `rounds` bisections.

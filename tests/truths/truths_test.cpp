@@ -1,4 +1,6 @@
 // Tests of the truths, and that their presets are those of scene files.
+#include <map>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -30,6 +32,18 @@ std::string name_of_case(const testing::TestParamInfo<Case>& one) {
 INSTANTIATE_TEST_SUITE_P(All, AtPreset, all_of(truths()), name_of_case);
 
 TEST(TruthRows, AreAllRun) { expect_rows(truths(), SUNDER_ROWS); }
+
+/// A kind is found by the text of the source.
+TEST(TruthSources, AreOfTheirKinds) {
+  std::map<SourceKind, std::set<std::string>> sources;
+  for (const Truth& truth : truths()) sources[source_kind(truth)].insert(truth.source);
+  EXPECT_EQ(sources[SourceKind::kMeasured],
+            (std::set<std::string>{"1.24 a, Lube et al. 2004", "Jarrett 1968"}));
+  EXPECT_EQ(sources[SourceKind::kOtherEngine].size(), 5u);
+  EXPECT_EQ(sources[SourceKind::kOwn].size(), 9u);
+  EXPECT_EQ(sources[SourceKind::kClosedForm].count("weight"), 1u);
+  EXPECT_EQ(source_kind(truths().back()), SourceKind::kOwn) << "they are last";
+}
 
 TEST(TruthPresets, AreThoseOfSceneFiles) {
   const auto presets = scenes::presets();
