@@ -161,6 +161,7 @@ float spin_reach(const Shape& shape, const Bodies& bodies, double dt_s, float to
   const Vec3& spin_W = bodies.angular_velocity[shape.body];
   const double spin = spin_W.norm();
   const auto angle = static_cast<float>(std::min(1., spin * dt_s));
+  if (shape.kind == Kind::kSphere) return angle * shape.center.norm();  // a ball is round
   const float most_m = angle * shape.reach_m;
   if (most_m <= tolerance_m) return most_m;
   const Vec3f axis_W = (spin_W / spin).cast<float>();
