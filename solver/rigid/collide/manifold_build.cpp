@@ -66,18 +66,34 @@ void keep_points(std::span<const ManifoldPoint> old, const PairMotion& motion,
   }
 }
 
-/// Computes lever arms from anchors, and puts friction at the mean of the points.
-void place_points(const Mat3f& R_WA, const Mat3f& R_WB, Manifold& m) {
+/// Returns a bit for each point that is hardly farther than the first to touch.
+std::uint32_t touching_of(std::span<const PatchPoint> points, float size_m) {
+  const auto separation = [](const PatchPoint& point) { return point.separation_m; };
+  const float most_m =
+      std::ranges::min(points, {}, separation).separation_m + kContactMargin * size_m;
+  std::uint32_t touching = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].separation_m <= most_m) touching |= 1u << i;
+  return touching;
+}
+
+/// Computes lever arms from anchors, and puts friction at the mean of the points, without those
+/// that only the swing after an impact may bring together: `touching` has a bit for each of the
+/// others.
+void place_points(const Mat3f& R_WA, const Mat3f& R_WB, std::uint32_t touching, Manifold& m) {
   m.friction_anchor_A.setZero(), m.friction_anchor_B.setZero();
+  float count = 0;
   for (std::size_t i = 0; i < m.count; ++i) {
     ManifoldPoint& point = m.points[i];
     point.arm_A = R_WA * point.anchor_A;
     point.arm_B = R_WB * point.anchor_B;
+    if (!(touching >> i & 1)) continue;
     m.friction_anchor_A += point.anchor_A;
     m.friction_anchor_B += point.anchor_B;
+    ++count;
   }
-  m.friction_anchor_A /= static_cast<float>(m.count);
-  m.friction_anchor_B /= static_cast<float>(m.count);
+  m.friction_anchor_A /= count;
+  m.friction_anchor_B /= count;
   m.friction_arm_A = R_WA * m.friction_anchor_A;
   m.friction_arm_B = R_WB * m.friction_anchor_B;
 }
@@ -148,7 +164,7 @@ void build_manifold(const Pair& pair, const Bodies& bodies, const PairMotion& mo
   }
   const std::span<const ManifoldPoint> before = std::span(old).first(old_count);
   if (points.size() == 1 && m.reusable) keep_points(before, motion, normal_A, reach_m, m);
-  place_points(R_WA, R_WB, m);
+  place_points(R_WA, R_WB, moment.time_s > 0 ? touching_of(points, m.size_m) : ~0u, m);
   m.drift_W.setZero();
   m.sticking = true;
   inherit_impulses(before, m.size_m, std::span(m.points).first(m.count));
