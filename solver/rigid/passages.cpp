@@ -219,8 +219,9 @@ void Passages::begin(const Bodies& bodies) {
   rotation_ = bodies.rotation;
 }
 
-std::size_t Passages::put_back(const BroadPhase& broad_phase, const Shapes& shapes,
-                               const Joints& joints, Bodies& bodies) const {
+Passages::PutBack Passages::put_back(const StepContext& step, const BroadPhase& broad_phase,
+                                     const Shapes& shapes, const Joints& joints,
+                                     Bodies& bodies) const {
   constexpr std::size_t kBodies = 256;
   const TakenPaths paths{position_, rotation_, bodies};
   const auto fast = collect_chunks<BodySlot>(
@@ -229,14 +230,14 @@ std::size_t Passages::put_back(const BroadPhase& broad_phase, const Shapes& shap
         for (BodySlot body(begin); body.value < end; ++body.value)
           if (is_fast(body, paths, shapes)) found.push_back(body);
       });
-  if (fast.empty()) return 0;
+  if (fast.empty()) return {};
   const std::vector<ShapeSlot> strays = broad_phase.strays(shapes, bodies);
   const auto passages = collect_chunks<Passage>(
       fast.size(), 16, [&](std::size_t begin, std::size_t end, std::vector<Passage>& found) {
         for (std::size_t i = begin; i < end; ++i)
           find_passages(fast[i], paths, broad_phase, strays, shapes, joints, found);
       });
-  if (passages.empty()) return 0;
+  if (passages.empty()) return {};
   // Bodies that met, and bodies in joints, return to the same time.
   ByBody<double> part(bodies.size());
   std::fill(part.begin(), part.end(), 1.);
@@ -255,14 +256,19 @@ std::size_t Passages::put_back(const BroadPhase& broad_phase, const Shapes& shap
       lower(passage.a, least), lower(passage.b, least);
     }
   }
+  PutBack all;
+  all.bodies = returned.size();
   for (const BodySlot body : returned) {
+    const Vec3 fall_m_s = (1 - part[body]) * step.dt_s * step.gravity_W;
+    bodies.velocity[body] -= fall_m_s;
+    all.impulse_Ns += bodies.mass_kg[body] * fall_m_s;
     const TakenPath path = paths[body];
     const Pose pose = path.at(part[body]);
     bodies.rotation_path_m[body] += 1.1 * path.turn_W.norm() * bodies.reach_m[body];
     bodies.place(body, pose.position, pose.rotation);
     bodies.changed[body] = 1;
   }
-  return returned.size();
+  return all;
 }
 
 }  // namespace sunder::solver

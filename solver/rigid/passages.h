@@ -13,16 +13,20 @@ namespace sunder::solver {
 
 /// Puts back what the contacts of a step did not stop: shapes that were apart from another, and
 /// whose centre went into it.
-/// Both bodies return to where they were before they met, with the velocities that they have, and
-/// the next step finds their contact.
+/// Both bodies return to where they were before they met, with the velocities that they have less
+/// what gravity added since, and the next step finds their contact.
 class Passages {
  public:
   /// Keeps the poses at the start of a step.
   void begin(const Bodies& bodies);
+  struct PutBack {
+    std::size_t bodies = 0;
+    Vec3 impulse_Ns = Vec3::Zero();  ///< Impulse of gravity that was taken back.
+  };
   /// Puts back all bodies that passed through others since begin(), with all that joints hold to
-  /// them; returns their number.
-  std::size_t put_back(const BroadPhase& broad_phase, const Shapes& shapes, const Joints& joints,
-                       Bodies& bodies) const;
+  /// them.
+  PutBack put_back(const StepContext& step, const BroadPhase& broad_phase, const Shapes& shapes,
+                   const Joints& joints, Bodies& bodies) const;
 
  private:
   ByBody<Vec3> position_;

@@ -463,6 +463,9 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     if (bodies_.is_moving_kinematic(body)) move_kinematic(step, body, bodies_);
   report.external_impulse_Ns = solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
+  const auto back = passages_.put_back(step, broad_phase_, shapes_, joints_, bodies_);
+  report.external_impulse_Ns -= back.impulse_Ns;
+  if (back.bodies > 0) work_.add({Stage::kSolve, "bodies put back", back.bodies});
   const Momentum end = bodies_.momentum();
   report.momentum_before_Ns = start.momentum_Ns;
   report.momentum_after_Ns = end.momentum_Ns;
@@ -470,8 +473,6 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.energy = energy_of(solved, step, start, end);
   report.friction_allowed_Ns = solved.work.allowed_Ns;
   report.friction_excess_Ns = solved.work.excess_Ns;
-  const std::size_t back = passages_.put_back(broad_phase_, shapes_, joints_, bodies_);
-  if (back > 0) work_.add({Stage::kSolve, "bodies put back", back});
   paused_.resume(bodies_);  // paused bodies are not asleep: contacts no longer wake them
   if (options_.sleeping) {
     const WorkSpan span(work_, Stage::kSolve, "sleep");
