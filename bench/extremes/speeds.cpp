@@ -83,7 +83,7 @@ Truths speed_extremes() {
               Measure([](const Preset& preset) {
                 return mean_of_seeds(shot_at(kBricks)(preset), depth_left_mm);
               }),
-              {35, 16, 10, 1.7}),
+              {35, 16, 10, 3.2}),
   };
 }
 
