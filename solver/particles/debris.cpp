@@ -330,10 +330,13 @@ void Debris::put_to_sleep(double dt_s, const Obstacles& obstacles) {
   for (std::size_t i = 0; i < awake_.size(); ++i) {
     const std::uint32_t chip = awake_[i];
     const std::uint32_t body = results_[i].support;
-    const bool still = results_[i].on_still_surface &&
+    // A chip at rest touches its support once in several steps if they are short, because of
+    // kChipContactGap_m.
+    const bool on_support = results_[i].on_still_surface;
+    const bool still = (on_support || !results_[i].touched) &&
                        velocity_W_[chip].squaredNorm() < kMaxSleepSpeed_m_s * kMaxSleepSpeed_m_s;
     slow_s_[chip] = still ? slow_s_[chip] + static_cast<float>(dt_s) : 0;
-    if (slow_s_[chip] < kMinChipRestTime_s) continue;
+    if (!on_support || slow_s_[chip] < kMinChipRestTime_s) continue;
     state_[chip] = State::kAsleep;
     velocity_W_[chip].setZero();
     angular_velocity_W_[chip].setZero();

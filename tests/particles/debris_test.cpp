@@ -178,6 +178,34 @@ TEST(Debris, SleepsOnABodyThatHardlyMovesAndWakesWhenItHasMoved) {
   EXPECT_EQ(debris.counts().awake, 1u);
 }
 
+TEST(Debris, SlidesDownWallsAndFallsAsleepBelowAtAnyLengthOfStep) {
+  for (const double dt_s : {1. / 30, 1. / 60, 1. / 120, 1. / 480, 1. / 1920}) {
+    for (const double lean_rad : {-0.1, 0., 0.1, 0.4}) {
+      for (const double radius_m : {0.005, 0.02, 0.1}) {
+        Debris debris(200, kGravity);
+        TestObstacles obstacles;
+        const Quat lean(Eigen::AngleAxisd(lean_rad, Vec3::UnitZ()));
+        obstacles.add_box(Vec3(0, 2, 0), Vec3(0.15, 2, 3), lean);
+        Random random(5);
+        for (int i = 0; i < 50; ++i) {
+          // Some of them begin within the wall.
+          const Vec3 at_B(-0.15 - random.uniform(-0.5, 2) * radius_m, random.uniform(-0.5, 1),
+                          random.uniform(-1, 1));
+          DebrisBirth chip = chip_at((Vec3(0, 2, 0) + lean * at_B).cast<float>(),
+                                     0.3f * random.direction().cast<float>());
+          chip.radius_m = static_cast<float>(radius_m);
+          debris.add(chip);
+        }
+        const auto steps = static_cast<int>(4 / dt_s);
+        for (int step = 0; step < steps; ++step) debris.advance(dt_s, obstacles.view());
+        EXPECT_EQ(debris.counts().awake, 0u) << dt_s << " s, " << lean_rad << ", " << radius_m;
+        for (const Vec3f& at : debris.view().position_W)
+          EXPECT_NEAR(at.y(), radius_m, 1e-3) << dt_s << " s, " << lean_rad << ", " << radius_m;
+      }
+    }
+  }
+}
+
 TEST(Debris, RestsOnObstaclesOfAnySizeNumberAndPlace) {
   Debris debris(200, kGravity);
   TestObstacles obstacles;
