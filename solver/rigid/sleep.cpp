@@ -52,7 +52,11 @@ void Sleep::update_rest_time(const StepContext& step, Bodies& bodies) {
     const Quat rotation = bodies.rest_rotation[body].conjugate() * bodies.rotation[body];
     const double drift = (bodies.position[body] - bodies.rest_position[body]).norm() +
                          2 * rotation.vec().norm() * reach;
-    if (speed < speed_m_s(kMaxRestSpeed, step, reach) && drift < kMaxRestDrift * reach) {
+    const bool slow = speed < speed_m_s(kMaxRestSpeed, step, reach);
+    bodies.slow_s[body] = slow ? bodies.slow_s[body] + static_cast<float>(step.dt_s) : 0;
+    const double times = double{bodies.slow_s[body]} / step.rest_s(reach);
+    const double most_m = std::clamp(times, 1., kPatience) * kMaxRestDrift * reach;
+    if (slow && drift < most_m) {
       bodies.resting_s[body] += static_cast<float>(step.dt_s);
     } else {
       bodies.restart_rest(body);

@@ -160,6 +160,9 @@ inline constexpr std::size_t kMaxDeepContacts = kMaxNeighbours;
 
 /// Maximum drift of a body during the time of rest, as a fraction of its reach.
 inline constexpr double kMaxRestDrift = 0.005;
+/// Maximum drift of a body that has been slow for long, in those of one that has just become slow:
+/// the drift that counts as rest grows by kMaxRestDrift with each time of rest that it was slow.
+inline constexpr double kPatience = 8;
 /// Weight that the lost contacts of a body at rest may have carried, as a fraction of its weight: a
 /// smaller one moves the body by no more than kMaxRestDrift.
 inline constexpr double kMaxLostSupport = kMaxRestDrift;

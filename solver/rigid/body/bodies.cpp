@@ -76,6 +76,7 @@ void Bodies::resize(std::uint32_t count) {
   is_gyroscopic.resize(count);
   reach_m.resize(count);
   rotation_path_m.resize(count);
+  slow_s.resize(count);
   resting_s.resize(count);
   lost_N.resize(count);
   rest_position.resize(count);
@@ -92,7 +93,7 @@ void Bodies::resize(std::uint32_t count) {
 const char* Bodies::wrong_field() const {
   if (!have_size(size(), generation, position, com_R, rotation, rotation_f, velocity,
                  angular_velocity, mass_kg, inertia_B, inverse_mass, root_B, is_gyroscopic, reach_m,
-                 rotation_path_m, resting_s, lost_N, rest_position, rest_rotation, is_new, changed,
+                 rotation_path_m, slow_s, resting_s, lost_N, rest_position, rest_rotation, is_new, changed,
                  displaced, reports_load, tag, filter, first_shape))
     return "motion";
   if (!are_different_below(free_slots, size())) return "free_slots";
@@ -110,6 +111,7 @@ const char* Bodies::wrong_field() const {
     if (!is_within(angular_velocity[body], kMostSpeed_m_s)) return "angular_velocity";
     if (!is_bounded(reach_m[body], kMostShape_m)) return "reach_m";
     if (!(rotation_path_m[body] >= 0)) return "rotation_path_m";
+    if (!(slow_s[body] >= 0)) return "slow_s";
     if (!(resting_s[body] >= 0)) return "resting_s";
     if (!dynamic(body)) {
       if (inverse_mass[body] != 0) return "inverse_mass";
@@ -156,7 +158,7 @@ BodySlot Bodies::add(const BodyDesc& desc) {
   }
   reach_m[body] = 0;
   rotation_path_m[body] = 0;
-  restart_rest(body);
+  disturb(body);
   rest_position[body] = position[body];
   rest_rotation[body] = rotation[body];
   is_new[body] = 1;
@@ -242,7 +244,7 @@ void Bodies::set_state(BodySlot body, const BodyState& state) {
   velocity[body] = state.velocity_W;
   angular_velocity[body] = state.angular_velocity_W;
   changed[body] = 1;
-  restart_rest(body);
+  disturb(body);
 }
 
 void Bodies::apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& point_W) {
@@ -253,13 +255,18 @@ void Bodies::apply_impulse(BodySlot body, const Vec3& impulse_W, const Vec3& poi
   velocity[body] += impulse_W / mass_kg[body];
   angular_velocity[body] += q * Vec3(inertia_B[body].inverse() * angular_impulse_B);
   changed[body] = 1;
-  restart_rest(body);
+  disturb(body);
 }
 
 void Bodies::wake(BodySlot body) {
   if (motion[body] != Motion::kAsleep) return;
   motion[body] = Motion::kAwake;
   changed[body] = 1;
+  disturb(body);
+}
+
+void Bodies::disturb(BodySlot body) {
+  slow_s[body] = 0;
   restart_rest(body);
 }
 

@@ -48,7 +48,8 @@ struct Bodies {
   ByBody<double> reach_m;  ///< Radius of a sphere about the centre of mass that has all shapes.
   ByBody<double> rotation_path_m;  ///< Upper bound on the path of any point by rotation since the
                                    ///< body was added.
-  ByBody<float> resting_s;         ///< Time that the body has been slow and near its rest pose.
+  ByBody<float> slow_s;            ///< Time that the body has been slow.
+  ByBody<float> resting_s;         ///< Time of it that the body has been near its rest pose.
   ByBody<float> lost_N;            ///< Sum of the forces of contacts that ended in that time.
   ByBody<Vec3> rest_position;      ///< Pose at the start of that time.
   ByBody<Quat> rest_rotation;
@@ -116,6 +117,8 @@ struct Bodies {
   void wake(BodySlot body);
   /// Restarts the time of rest.
   void restart_rest(BodySlot body);
+  /// Restarts it, and the time that the body has been slow.
+  void disturb(BodySlot body);
   /// Clears the flags `is_new` and `displaced` of all bodies.
   void clear_step_flags();
 
