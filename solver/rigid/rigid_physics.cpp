@@ -16,6 +16,7 @@
 #include "solver/rigid/body/paused.h"
 #include "solver/rigid/body/step_context.h"
 #include "solver/rigid/collide/broad_phase.h"
+#include "solver/rigid/collide/contact_finder.h"
 #include "solver/rigid/collide/contacts.h"
 #include "solver/rigid/collide/dense_clusters.h"
 #include "solver/rigid/collide/narrow_phase.h"
@@ -35,6 +36,9 @@
 
 namespace sunder::solver {
 namespace {
+
+/// Name of the work on contacts of bodies that are removed, edited or joined.
+constexpr const char* kChangedContacts = "contacts of changed bodies";
 
 class RigidPhysics final : public Physics {
  public:
@@ -73,7 +77,7 @@ class RigidPhysics final : public Physics {
     joints_.strengthen(joint, strength);
   }
   void cut(JointId joint) override {
-    sleep_.wake_joined(joints_.at(joint), options_.gravity_W, contacts_, bodies_);
+    wake_joined(joints_.at(joint));
     joints_.cut(joint, bodies_);
   }
   std::vector<JointId> take_broken() override { return joints_.take_broken(); }
@@ -97,6 +101,10 @@ class RigidPhysics final : public Physics {
   PhysicsContents contents() const override;
 
  private:
+  ContactFinder finder() {
+    return {contacts_, bodies_, shapes_, &broad_phase_, contacts_of_bodies_};
+  }
+  void wake_joined(const Joint& joint);
   void remove_bodies(std::span<const BodyId> ids);
   void remove_shapes(std::span<const ShapeSlot> shapes);
   void wake_hit();
@@ -136,6 +144,7 @@ class RigidPhysics final : public Physics {
 };
 
 void RigidPhysics::archive(Archive& bytes) {
+  joints_.update_ignored_pairs(bodies_);
   // The other members are found anew in every step.
   bytes(bodies_, shapes_, contacts_, joints_, broad_phase_, dense_clusters_, speculative_contacts_,
         paused_, last_step_, frozen_, skipped_, reach_);
@@ -151,6 +160,7 @@ void RigidPhysics::archive(Archive& bytes) {
       !(last_step_.h_s > 0 && last_step_.h_s <= last_step_.dt_s && last_step_.dt_s <= 1))
     bytes.refuse_field<RigidPhysics>("last_step_");
   if (reach_.size() > bodies_.size()) bytes.refuse_field<RigidPhysics>("reach_");
+  joints_.list_by_body();
   contacts_of_bodies_.clear();
   queries_valid_ = false;
 }
@@ -200,7 +210,7 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
   remove_shapes(shapes);
   for (const BodyId id : ids) {
     const BodySlot body = bodies_.slot(id);  // fails for an id given twice
-    sleep_.wake_joined(joints_.all(), body, options_.gravity_W, contacts_, bodies_);
+    for (const std::uint32_t joint : joints_.of(body)) wake_joined(joints_[joint]);
     joints_.detach(body, bodies_);
     paused_.remove(body);
     bodies_.remove(body);
@@ -208,12 +218,21 @@ void RigidPhysics::remove_bodies(std::span<const BodyId> ids) {
   }
 }
 
+/// Wakes what a joint holds that will be removed.
+void RigidPhysics::wake_joined(const Joint& joint) {
+  ContactFinder near = finder();
+  sleep_.wake_joined(joint, options_.gravity_W, near, bodies_);
+  work_.add({Stage::kCollide, kChangedContacts, near.looked_at()});
+}
+
 void RigidPhysics::remove_shapes(std::span<const ShapeSlot> shapes) {
   const std::vector<PairSlot> pairs = broad_phase_.pairs_with(shapes, shapes_, contacts_);
   std::vector<ManifoldSlot> manifolds;
   for (const PairSlot pair : pairs)
     if (contacts_.pairs[pair].touching()) manifolds.push_back(contacts_.pairs[pair].manifold);
-  sleep_.wake_unsupported(manifolds, options_.gravity_W, contacts_, bodies_);
+  ContactFinder near = finder();
+  sleep_.wake_unsupported(manifolds, options_.gravity_W, near, bodies_);
+  work_.add({Stage::kCollide, kChangedContacts, manifolds.size() + near.looked_at()});
   contacts_of_bodies_.clear();
   for (const PairSlot pair : pairs) {
     speculative_contacts_.invalidate(contacts_.pairs[pair]);
@@ -244,7 +263,8 @@ void RigidPhysics::collide(double dt_s) {
   update_contacts();
   contacts_of_bodies_.clear();
   wake_hit();
-  sleep_.wake_on_kinematic(options_.gravity_W, contacts_, bodies_);
+  ContactFinder contacts = finder();
+  sleep_.wake_on_kinematic(options_.gravity_W, contacts, bodies_);
 }
 
 /// Wakes the sleeping bodies that impacts will move within the step.
@@ -286,6 +306,7 @@ void RigidPhysics::update_contacts() {
   const auto changes = std::span(changes_).first(chunks);
   for (ContactChanges& chunk : changes) chunk.clear();
   find_reaches();
+  joints_.update_ignored_pairs(bodies_);
   for_chunks(pairs.size(), kChunk, [&](std::size_t begin, std::size_t end, std::size_t c) {
     NarrowScratch scratch;
     Manifold fresh;
@@ -321,7 +342,8 @@ void RigidPhysics::update_contacts() {
   std::vector<ManifoldSlot> left;
   for (const ContactChanges& chunk : changes)
     for (const PairSlot i : chunk.separated) left.push_back(pairs[i].manifold);
-  sleep_.wake_unsupported(left, options_.gravity_W, contacts_, bodies_);
+  ContactFinder before{contacts_, bodies_, shapes_, nullptr, contacts_of_bodies_};
+  sleep_.wake_unsupported(left, options_.gravity_W, before, bodies_);
   speculative_contacts_.invalidate_changed(bodies_);
   for (const ContactChanges& chunk : changes)
     for (const PairSlot i : chunk.separated) {
@@ -382,9 +404,14 @@ void RigidPhysics::apply_impulse(BodyId id, const Vec3& impulse_W, const Vec3& p
 /// other.
 void RigidPhysics::retest_pairs_of(JointId id) {
   const Joint& joint = joints_[id.slot];
-  for (Pair& pair : contacts_.pairs) {
-    const bool same = pair.body_a == joint.body_a && pair.body_b == joint.body_b;
-    if (same || (pair.body_a == joint.body_b && pair.body_b == joint.body_a))
+  const BodySlot a = joint.body_a, b = joint.body_b;
+  if (a.none() || b.none()) return;
+  const std::vector<ShapeSlot> shapes = shapes_.of_body(bodies_.mobile(a) ? a : b, bodies_);
+  const std::vector<PairSlot> near = broad_phase_.pairs_with(shapes, shapes_, contacts_);
+  work_.add({Stage::kCollide, kChangedContacts, near.size()});
+  for (const PairSlot slot : near) {
+    Pair& pair = contacts_.pairs[slot];
+    if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a))
       pair.needs_test = true;
   }
 }
@@ -401,7 +428,7 @@ JointId RigidPhysics::join(const JointDesc& joint) {
 
 void RigidPhysics::attach(JointId id, bool end_a, BodyId body,
                           std::span<const std::uint32_t> quiet_tags) {
-  sleep_.wake_joined(joints_.at(id), options_.gravity_W, contacts_, bodies_);
+  wake_joined(joints_.at(id));
   joints_.attach(id, end_a, body, quiet_tags, bodies_);
   retest_pairs_of(id);
 }
@@ -463,6 +490,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
     if (bodies_.is_moving_kinematic(body)) move_kinematic(step, body, bodies_);
   report.external_impulse_Ns = solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
   report.external_impulse_Ns += freeze_broken();
+  joints_.update_ignored_pairs(bodies_);
   const auto back = passages_.put_back(step, broad_phase_, shapes_, joints_, bodies_);
   report.external_impulse_Ns -= back.impulse_Ns;
   if (back.bodies > 0) work_.add({Stage::kSolve, "bodies put back", back.bodies});
@@ -476,7 +504,8 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   paused_.resume(bodies_);  // paused bodies are not asleep: contacts no longer wake them
   if (options_.sleeping) {
     const WorkSpan span(work_, Stage::kSolve, "sleep");
-    sleep_.wake_by_load(step, contacts_, bodies_);
+    ContactFinder contacts = finder();
+    sleep_.wake_by_load(step, contacts, bodies_);
     report.energy.sleep = sleep_.put_to_sleep(step, joints_, bodies_, contacts_);
   }
   contacts_of_bodies_.clear();

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "solver/rigid/collide/speculative_contacts.h"
 #include "solver/rigid/tuning.h"
 
 namespace sunder::solver {
@@ -166,11 +165,11 @@ double Sleep::put_to_sleep(const StepContext& step, const Joints& joints, Bodies
   return taken_J;
 }
 
-void Sleep::wake_by_load(const StepContext& step, const Contacts& contacts, Bodies& bodies) {
+void Sleep::wake_by_load(const StepContext& step, ContactFinder& finder, Bodies& bodies) {
   change_N_.assign(bodies.size(), 0);
   support_N_.assign(bodies.size(), 0);
   const Vec3f up_W = up(step.gravity_W);
-  for (const Manifold& m : contacts.manifolds) {
+  for (const Manifold& m : finder.contacts().manifolds) {
     if (m.count == 0) continue;
     const bool a = asleep(bodies, m.body_a), b = asleep(bodies, m.body_b);
     if (a == b || !bodies.awake(a ? m.body_b : m.body_a)) continue;
@@ -187,14 +186,14 @@ void Sleep::wake_by_load(const StepContext& step, const Contacts& contacts, Bodi
     (support_N_[body] < -kSupportingForce * weight ? left : woken).push_back(body);
   }
   for (const BodySlot body : woken) bodies.wake(body);
-  wake_above(std::move(left), step.gravity_W, contacts, bodies);
+  wake_above(std::move(left), step.gravity_W, finder, bodies);
 }
 
 void Sleep::wake_unsupported(std::span<const ManifoldSlot> manifolds, const Vec3& gravity_W,
-                             const Contacts& contacts, Bodies& bodies) {
+                             ContactFinder& finder, Bodies& bodies) {
   std::vector<BodySlot> lowest;
   for (const ManifoldSlot slot : manifolds) {
-    const Manifold& m = contacts.manifolds[slot];
+    const Manifold& m = finder.contacts().manifolds[slot];
     for (const BodySlot body : {m.body_a, m.body_b}) {
       if (!bodies.dynamic(body) || !(bodies.resting_s[body] > 0)) continue;
       const float rest_N = asleep(bodies, body) ? m.rest_force_W.norm() : 0;
@@ -208,69 +207,47 @@ void Sleep::wake_unsupported(std::span<const ManifoldSlot> manifolds, const Vec3
   }
   std::sort(lowest.begin(), lowest.end());
   lowest.erase(std::unique(lowest.begin(), lowest.end()), lowest.end());
-  wake_above(std::move(lowest), gravity_W, contacts, bodies);
+  wake_above(std::move(lowest), gravity_W, finder, bodies);
 }
 
-void Sleep::wake_joined(const Joint& joint, const Vec3& gravity_W, const Contacts& contacts,
+void Sleep::wake_joined(const Joint& joint, const Vec3& gravity_W, ContactFinder& finder,
                         Bodies& bodies) {
   if (!joint.has_load()) return;
   std::vector<BodySlot> held;
   for (const BodySlot body : {joint.body_a, joint.body_b})
     if (!body.none() && bodies.dynamic(body)) held.push_back(body);
-  wake_above(std::move(held), gravity_W, contacts, bodies);
+  wake_above(std::move(held), gravity_W, finder, bodies);
 }
 
-void Sleep::wake_joined(std::span<const Joint> joints, BodySlot body, const Vec3& gravity_W,
-                        const Contacts& contacts, Bodies& bodies) {
-  for (const Joint& joint : joints)
-    if (joint.body_a == body || joint.body_b == body)
-      wake_joined(joint, gravity_W, contacts, bodies);
-}
-
-void Sleep::wake_on_kinematic(const Vec3& gravity_W, const Contacts& contacts, Bodies& bodies) {
+void Sleep::wake_on_kinematic(const Vec3& gravity_W, ContactFinder& finder, Bodies& bodies) {
   const auto shifts = [&](BodySlot body) { return bodies.is_shifting_kinematic(body); };
   bool any = false;
   for (const BodySlot body : bodies.slots()) any = any || shifts(body);
   if (!any) return;
   std::vector<BodySlot> carried;
-  for (const Manifold& m : contacts.manifolds) {
+  for (const Manifold& m : finder.contacts().manifolds) {
     if (m.count == 0) continue;
     if (shifts(m.body_b) && asleep(bodies, m.body_a)) carried.push_back(m.body_a);
     if (shifts(m.body_a) && asleep(bodies, m.body_b)) carried.push_back(m.body_b);
   }
-  wake_above(std::move(carried), gravity_W, contacts, bodies);
+  wake_above(std::move(carried), gravity_W, finder, bodies);
 }
 
-void Sleep::wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W,
-                       const Contacts& contacts, Bodies& bodies) {
-  if (lowest.empty()) return;
+void Sleep::wake_above(std::vector<BodySlot> lowest, const Vec3& gravity_W, ContactFinder& finder,
+                       Bodies& bodies) {
   const Vec3f up_W = up(gravity_W);
-  // Edges from a body to a sleeping body that it supports, sorted by the lower body (counting
-  // sort).
-  auto for_each_edge = [&](const auto& visit) {
-    for (const Manifold& m : contacts.manifolds) {
-      if (m.count == 0 || !bodies.dynamic(m.body_a) || !bodies.dynamic(m.body_b)) continue;
-      const float lift = m.rest_force_W.dot(up_W);
-      const BodySlot low = lift > 0 ? m.body_a : m.body_b;
-      const BodySlot high = lift > 0 ? m.body_b : m.body_a;
-      if (asleep(bodies, high) &&
-          std::abs(lift) > kSupportingForce * weight_N(bodies, high, gravity_W))
-        visit(low, high);
-    }
-  };
-  first_.assign(bodies.size() + 2, 0);
-  for_each_edge([&](BodySlot low, BodySlot) { ++first_[low.value + 2]; });
-  for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  above_.resize(first_.back());
-  for_each_edge([&](BodySlot low, BodySlot high) { above_[first_[low.value + 1]++] = high; });
   for (const BodySlot body : lowest) bodies.wake(body);
   while (!lowest.empty()) {
     const BodySlot low = lowest.back();
     lowest.pop_back();
-    for (std::uint32_t i = first_[low.value]; i < first_[low.value + 1]; ++i) {
-      if (!asleep(bodies, above_[i])) continue;
-      bodies.wake(above_[i]);
-      lowest.push_back(above_[i]);
+    for (const ManifoldSlot slot : finder.of(low)) {
+      const Manifold& m = finder.contacts().manifolds[slot];
+      const BodySlot high = m.body_a == low ? m.body_b : m.body_a;
+      const float lift = (m.body_a == low ? 1.f : -1.f) * m.rest_force_W.dot(up_W);
+      if (!asleep(bodies, high) || !(lift > kSupportingForce * weight_N(bodies, high, gravity_W)))
+        continue;
+      bodies.wake(high);
+      lowest.push_back(high);
     }
   }
 }

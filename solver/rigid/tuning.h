@@ -183,6 +183,9 @@ inline constexpr float kWakingForceChange = 0.3f;
 inline constexpr float kIgnoredForceChange = kWakingForceChange;
 /// Minimum force, as a fraction of a body's weight, with which another body supports it.
 inline constexpr float kSupportingForce = kWakingForceChange;
+/// Contacts that can be listed by body in the time in which those of one shape are found in the
+/// tree of boxes. It has no effect on results.
+inline constexpr std::size_t kManifoldsPerQuery = 64;
 
 // Joints (decision 026).
 

@@ -1,8 +1,11 @@
 // Tests of edits of a static compound: remaining shapes keep their contacts, and the cost follows
 // from the number of changed shapes.
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <numeric>
+#include <string_view>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -169,6 +172,65 @@ TEST(Edit, GivesTheSameBitsForAnyNumberOfThreads) {
   }
   set_threads(0);
   for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
+/// Stacks of four cubes at rest; those of each second stack are joined, each to the one below.
+struct Stacks {
+  RigidWorld world;
+  std::vector<JointId> joints;
+
+  explicit Stacks(int count) {
+    world.add(W::ground());
+    for (int i = 0; i < 4 * count; ++i) {
+      const double place = i / 4, layer = i % 4;
+      const Vec3 at(0.5 * std::fmod(place, 40), 0.1 + 0.2 * layer, 0.5 * std::floor(place / 40));
+      const BodyId cube = world.add(W::box(Vec3::Constant(0.2), at));
+      if (i / 4 % 2 == 0 || i % 4 == 0) continue;
+      joints.push_back(world.physics().join(joint_at(
+          world, JointKind::kFixed, world.id(world.size() - 2), cube, at - Vec3(0, 0.1, 0))));
+    }
+    world.run(2, kDt_s, 4);
+    world.physics().take_work();
+  }
+  BodyId cube(int stack, int layer) const {
+    return world.id(static_cast<std::size_t>(1 + 4 * stack + layer));
+  }
+  std::uint64_t contacts_looked_at() {
+    std::uint64_t sum = 0;
+    for (const WorkItem& item : world.physics().take_work())
+      if (std::string_view(item.name) == "contacts of changed bodies") sum += item.count;
+    return sum;
+  }
+  std::ptrdiff_t awake() {
+    return std::ranges::count(world.physics().states().mode, BodyMode::kAwake);
+  }
+};
+
+TEST(Edit, AChangeLooksAtTheNeighboursOfTheBodyInAWorldOfAnySize) {
+  std::vector<std::vector<std::uint64_t>> all;
+  for (const int count : {200, 2000}) {
+    Stacks stacks(count);
+    std::vector<std::uint64_t>& looked_at = all.emplace_back();
+    std::ptrdiff_t before = stacks.awake();
+    EXPECT_EQ(before, 0);
+    const auto woken = [&] {
+      looked_at.push_back(stacks.contacts_looked_at());
+      return stacks.awake() - std::exchange(before, stacks.awake());
+    };
+    stacks.world.remove(stacks.cube(2, 1));
+    EXPECT_EQ(woken(), 3);  // what it bore and what bore it
+    stacks.world.replace({stacks.cube(4, 2)}, {W::box(Vec3::Constant(0.2), Vec3(2, 9, 0))});
+    EXPECT_EQ(woken(), 3);                   // with the new one
+    stacks.world.remove(stacks.cube(3, 1));  // in joints
+    EXPECT_EQ(woken(), 2);
+    stacks.world.physics().cut(stacks.joints[6]);  // between the lowest two of stack 5
+    EXPECT_EQ(woken(), 2);
+    stacks.world.physics().join(joint_at(stacks.world, JointKind::kFixed, stacks.cube(6, 0),
+                                         stacks.cube(6, 1), Vec3(1, 0.2, 0)));
+    EXPECT_EQ(woken(), 2);
+    for (const std::uint64_t number : looked_at) EXPECT_LT(number, 20u);
+  }
+  EXPECT_EQ(all[0], all[1]);
 }
 
 }  // namespace

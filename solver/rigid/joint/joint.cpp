@@ -55,7 +55,7 @@ const char* Joints::wrong_field(const Bodies& bodies) const {
   for (const std::uint32_t slot : free_slots_)
     if (items_[slot].present) return "free_slots_";
   Joints same = *this;
-  same.update_ignored_pairs(bodies);
+  same.find_ignored_pairs(bodies);
   if (ignored_pairs_ != same.ignored_pairs_) return "ignored_pairs_";
   return ignored_shapes_ == same.ignored_shapes_ ? nullptr : "ignored_shapes_";
 }
@@ -71,7 +71,30 @@ void Joints::wake_ends(const Joint& joint, Bodies& bodies) const {
   wake_body(joint.body_b, bodies);
 }
 
+void Joints::list(std::uint32_t joint, BodySlot body) {
+  if (body.none()) return;
+  if (body.value >= of_body_.size()) of_body_.resize(std::size_t{body.value} + 1);
+  std::vector<std::uint32_t>& joints = of_body_[body];
+  joints.insert(std::ranges::lower_bound(joints, joint), joint);
+}
+
+void Joints::unlist(std::uint32_t joint, BodySlot body) {
+  if (body.none()) return;
+  std::vector<std::uint32_t>& joints = of_body_[body];
+  joints.erase(std::ranges::lower_bound(joints, joint));
+}
+
+void Joints::list_by_body() {
+  of_body_.clear();
+  for (std::uint32_t i = 0; i < size(); ++i)
+    for (const BodySlot body : {items_[i].body_a, items_[i].body_b}) list(i, body);
+}
+
 void Joints::update_ignored_pairs(const Bodies& bodies) {
+  if (std::exchange(ignored_pairs_are_stale_, false)) find_ignored_pairs(bodies);
+}
+
+void Joints::find_ignored_pairs(const Bodies& bodies) {
   ignored_pairs_.clear();
   ignored_shapes_.clear();
   for (const Joint& joint : items_) {
@@ -106,8 +129,10 @@ JointId Joints::add(const JointDesc& desc, Bodies& bodies) {
   joint.body_b = slot_of(desc.b, bodies);
   SUNDER_CHECK(joint.body_a != joint.body_b);
   SUNDER_CHECK(desc.kind != JointKind::kPlastic || has_strength(desc.strength));
+  list(slot, joint.body_a);
+  list(slot, joint.body_b);
   wake_ends(joint, bodies);
-  update_ignored_pairs(bodies);
+  ignored_pairs_are_stale_ = true;
   return {slot, joint.generation};
 }
 
@@ -117,12 +142,15 @@ void Joints::attach(JointId id, bool end_a, BodyId body, std::span<const std::ui
   (end_a ? joint.desc.quiet_a : joint.desc.quiet_b).assign(quiet_tags.begin(), quiet_tags.end());
   const BodySlot slot = slot_of(body, bodies);
   (end_a ? joint.desc.a : joint.desc.b) = body;
-  (end_a ? joint.body_a : joint.body_b) = slot;
+  BodySlot& end = end_a ? joint.body_a : joint.body_b;
+  unlist(id.slot, end);
+  list(id.slot, slot);
+  end = slot;
   const bool lost_a = joint.body_a.none() && !joint.desc.a.none();
   const bool lost_b = joint.body_b.none() && !joint.desc.b.none();
   joint.lost = lost_a || lost_b || joint.body_a == joint.body_b;
   wake_ends(joint, bodies);
-  update_ignored_pairs(bodies);
+  ignored_pairs_are_stale_ = true;
 }
 
 void Joints::strengthen(JointId id, const SectionStrength& strength) {
@@ -133,20 +161,23 @@ void Joints::strengthen(JointId id, const SectionStrength& strength) {
 void Joints::cut(JointId id, Bodies& bodies) {
   Joint& joint = at(id);
   wake_ends(joint, bodies);
+  unlist(id.slot, joint.body_a);
+  unlist(id.slot, joint.body_b);
   joint = Joint{};
   joint.generation = id.generation + 1;
   free_slots_.push_back(id.slot);
-  update_ignored_pairs(bodies);
+  ignored_pairs_are_stale_ = true;
 }
 
 void Joints::detach(BodySlot body, Bodies& bodies) {
-  for (Joint& joint : items_) {
-    if (!joint.present || (joint.body_a != body && joint.body_b != body)) continue;
+  if (of(body).empty()) return;
+  for (const std::uint32_t i : std::exchange(of_body_[body], {})) {
+    Joint& joint = items_[i];
     (joint.body_a == body ? joint.body_a : joint.body_b) = {};
     joint.lost = true;
     wake_ends(joint, bodies);
   }
-  update_ignored_pairs(bodies);
+  ignored_pairs_are_stale_ = true;
 }
 
 std::vector<BodySlot> Joints::joined_to(BodySlot body, const Bodies& bodies) const {
@@ -158,7 +189,8 @@ std::vector<BodySlot> Joints::joined_to(BodySlot body, const Bodies& bodies) con
   add(body);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BodySlot known = all[i];
-    for (const Joint& joint : items_) {
+    for (const std::uint32_t joint_index : of(known)) {
+      const Joint& joint = items_[joint_index];
       if (!joint.holds()) continue;
       if (joint.body_a == known) add(joint.body_b);
       if (joint.body_b == known) add(joint.body_a);

@@ -65,6 +65,8 @@ class Joints {
   std::vector<BodySlot> joined_to(BodySlot body, const Bodies& bodies) const;
   /// Wakes each sleeping body that is joined to a moving one, directly or through others.
   void wake(Bodies& bodies) const;
+  /// Must be called after joints changed, before ignores().
+  void update_ignored_pairs(const Bodies& bodies);
   /// True if two shapes ignore each other because their bodies are joined.
   bool ignores(const Pair& pair, const Shapes& shapes, const Bodies& bodies) const;
   /// Removes a joint that broke, and adds it to take_broken().
@@ -84,6 +86,13 @@ class Joints {
   /// Returns a joint, which must exist.
   Joint& at(JointId id);
   std::span<const Joint> all() const { return items_; }
+  /// Returns the indices of the joints of a body; ascending.
+  std::span<const std::uint32_t> of(BodySlot body) const {
+    return body.value < of_body_.size() ? std::span<const std::uint32_t>(of_body_[body])
+                                        : std::span<const std::uint32_t>();
+  }
+  /// Must be called after a state was read.
+  void list_by_body();
 
   static auto fields(auto& self) {
     return std::tie(self.items_, self.free_slots_, self.ignored_pairs_, self.ignored_shapes_,
@@ -94,10 +103,14 @@ class Joints {
 
  private:
   void wake_ends(const Joint& joint, Bodies& bodies) const;
-  void update_ignored_pairs(const Bodies& bodies);
+  void find_ignored_pairs(const Bodies& bodies);
+  void list(std::uint32_t joint, BodySlot body);
+  void unlist(std::uint32_t joint, BodySlot body);
 
   std::vector<Joint> items_;
   std::vector<std::uint32_t> free_slots_;
+  ByBody<std::vector<std::uint32_t>> of_body_;  ///< See of(); for the first bodies only.
+  bool ignored_pairs_are_stale_ = false;        ///< Joints have changed since they were found.
   /// A shape that is ignored within a pair of bodies.
   struct IgnoredShape {
     std::uint64_t pair;

@@ -1,0 +1,132 @@
+// Timing of what a program changes between two steps, in heaps at rest of different sizes: each
+// change has to cost what its neighbours are, not what the world is. And of a frame of a blast with
+// and without cover.
+//
+//   build/micro_bench --benchmark_filter=changes/
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "engine/base/random.h"
+#include "engine/geometry/hull.h"
+#include "scenes/file/make_compound.h"
+#include "scenes/load.h"
+#include "scenes/make_simulation.h"
+
+namespace sunder::scenes {
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60;
+
+/// Returns a scene of piles of four cubes of 0.2 m, which stand 0.4 m apart.
+Scene piles(std::size_t bodies) {
+  Scene scene;
+  scene.materials = builtin_materials();
+  Part part;
+  part.polyhedron = make_box(Vec3::Constant(-0.1), Vec3::Constant(0.1));
+  part.material = material_named(scene, "steel");
+  const Compound cube = make_compound({part});
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(bodies) / 4)) + 1;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    const std::size_t pile = i / 4;
+    Solid solid;
+    solid.compound = cube;
+    solid.X_WR.position =
+        Vec3(0.4 * static_cast<double>(pile % side), 0.1 + 0.2 * static_cast<double>(i % 4),
+             0.4 * static_cast<double>(pile / side));
+    scene.solids.push_back(std::move(solid));
+  }
+  return scene;
+}
+
+World asleep(std::size_t bodies) {
+  World world = make_world(piles(bodies));
+  for (int i = 0; i < 60; ++i) world.step(kFrame_s);
+  return world;
+}
+
+/// Removes the second cube of a pile; the two above it wake.
+void remove_one(benchmark::State& state) {
+  const auto bodies = static_cast<std::size_t>(state.range(0));
+  const World settled = asleep(bodies);
+  std::optional<World> world;
+  std::size_t next = 0, piles = bodies / 4;
+  for (auto _ : state) {
+    if (next % 100 == 0) {
+      state.PauseTiming();
+      world.emplace(settled.copy());
+      state.ResumeTiming();
+    }
+    const std::size_t pile = 7919 * next++ % piles;
+    world->remove(BodyKey(4 * pile + 1));
+  }
+}
+
+void filter_one(benchmark::State& state) {
+  const auto bodies = static_cast<std::size_t>(state.range(0));
+  const World settled = asleep(bodies);
+  std::optional<World> world;
+  std::size_t next = 0, piles = bodies / 4;
+  for (auto _ : state) {
+    if (next % 100 == 0) {
+      state.PauseTiming();
+      world.emplace(settled.copy());
+      state.ResumeTiming();
+    }
+    const std::size_t pile = 7919 * next++ % piles;
+    world->set_filter(BodyKey(4 * pile + 1), {2, 1});
+  }
+}
+
+BENCHMARK(remove_one)
+    ->Name("changes/remove")
+    ->RangeMultiplier(4)
+    ->Range(1000, 64000)
+    ->Iterations(200)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(filter_one)
+    ->Name("changes/set_filter")
+    ->RangeMultiplier(4)
+    ->Range(1000, 64000)
+    ->Iterations(200)
+    ->Unit(benchmark::kMicrosecond);
+
+/// Steps a frame in which a blast among a thousand boxes decides what it breaks and pushes them.
+void blast_frames(benchmark::State& state, bool cover, bool tnt) {
+  const World settled = asleep(1000);
+  for (auto _ : state) {
+    state.PauseTiming();
+    World world = settled.copy();
+    world.set_threads(1);
+    Blast blast;
+    blast.center_W = Vec3(3, 1, 3);
+    blast.cover = cover;
+    if (tnt) {
+      blast.tnt_kg = 1;
+    } else {
+      blast.impulse_Ns_m2 = 500;
+      blast.radius_m = 10;
+    }
+    world.blast(blast);
+    state.ResumeTiming();
+    for (int i = 0; i < 4; ++i) world.step(kFrame_s);
+  }
+}
+BENCHMARK_CAPTURE(blast_frames, open, false, false)
+    ->Name("changes/blast/open")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(blast_frames, cover, true, false)
+    ->Name("changes/blast/cover")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(blast_frames, tnt, false, true)
+    ->Name("changes/blast/tnt")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(blast_frames, tnt_cover, true, true)
+    ->Name("changes/blast/tnt_cover")
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace sunder::scenes
