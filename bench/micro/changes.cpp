@@ -27,7 +27,7 @@ Scene piles(std::size_t bodies) {
   scene.materials = builtin_materials();
   Part part;
   part.polyhedron = make_box(Vec3::Constant(-0.1), Vec3::Constant(0.1));
-  part.material = material_named(scene, "steel");
+  part.material = material_named(scene, "brick");
   const Compound cube = make_compound({part});
   const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(bodies) / 4)) + 1;
   for (std::size_t i = 0; i < bodies; ++i) {
@@ -94,38 +94,28 @@ BENCHMARK(filter_one)
     ->Iterations(200)
     ->Unit(benchmark::kMicrosecond);
 
-/// Steps a frame in which a blast among a thousand boxes decides what it breaks and pushes them.
-void blast_frames(benchmark::State& state, bool cover, bool tnt) {
+/// Steps the four frames of a blast too weak to break the boxes around it, on one thread.
+void blast_frames(benchmark::State& state, bool cover) {
   const World settled = asleep(1000);
   for (auto _ : state) {
     state.PauseTiming();
     World world = settled.copy();
     world.set_threads(1);
     Blast blast;
-    blast.center_W = Vec3(3, 1, 3);
+    blast.center_W = Vec3(3, 0.4, 3);
     blast.cover = cover;
-    if (tnt) {
-      blast.tnt_kg = 1;
-    } else {
-      blast.impulse_Ns_m2 = 500;
-      blast.radius_m = 10;
-    }
+    blast.impulse_Ns_m2 = 20;
+    blast.radius_m = 10;
     world.blast(blast);
     state.ResumeTiming();
     for (int i = 0; i < 4; ++i) world.step(kFrame_s);
   }
 }
-BENCHMARK_CAPTURE(blast_frames, open, false, false)
+BENCHMARK_CAPTURE(blast_frames, open, false)
     ->Name("changes/blast/open")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(blast_frames, cover, true, false)
+BENCHMARK_CAPTURE(blast_frames, cover, true)
     ->Name("changes/blast/cover")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(blast_frames, tnt, false, true)
-    ->Name("changes/blast/tnt")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(blast_frames, tnt_cover, true, true)
-    ->Name("changes/blast/tnt_cover")
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -1,8 +1,12 @@
 // Tests of scripted actions (blasts, removals, drives, joints, wrecking balls) and of ageing.
+#include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "engine/base/parallel.h"
 #include "engine/base/random.h"
 #include "tests/engine/scripted.h"
 
@@ -103,6 +107,48 @@ TEST(Blast, CoverHasTheDirectionOfWhatCovers) {
     EXPECT_EQ(run.state(1).velocity_W.norm(), 0) << direction.transpose();
     EXPECT_GT(run.state(2).velocity_W.norm(), 0) << direction.transpose();
   }
+}
+
+/// Returns a thousand boxes of 1 m at the points of a grid, with a blast between two that reaches
+/// them all.
+Scene thousand_boxes() {
+  Scene scene = empty_scene();
+  scene.materials[0].pattern.kind = PatternSpec::Kind::kNone;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 cell(i % 10, i / 10 % 10, i / 100);
+    scene.solids.push_back(row(1.7 * (cell - Vec3::Constant(4.5)) - Vec3::Constant(0.5), 1, false));
+  }
+  scene.blasts = {{0, Vec3(0, 0.85, 0.85), 20, 1000, true}};
+  return scene;
+}
+
+TEST(Blast, CoverAmongAThousandBoxesTakesAFewRaysForEachDirectionWhichAreCounted) {
+  constexpr std::uint64_t kDirections = 6 * 48 * 48;
+  ActRun run(thousand_boxes());
+  std::uint64_t rays = 0, points = 0;
+  for (int i = 0; i < 5; ++i)
+    for (const WorkItem& item : run.simulation->next()->report.work) {
+      if (item.stage != Stage::kAct) continue;
+      (std::string_view(item.name) == "rays for cover" ? rays : points) += item.count;
+    }
+  EXPECT_GT(rays, kDirections);
+  EXPECT_LT(rays, 3 * kDirections);
+  EXPECT_EQ(points, 6000u) << "six faces of each box, once";
+}
+
+TEST(Blast, WithCoverPushesTheSameForAnyNumberOfThreads) {
+  std::vector<std::vector<Vec3>> all;
+  for (const int count : {1, 3}) {
+    const ThreadScope scope(count);
+    ActRun run(thousand_boxes());
+    for (int i = 0; i < 5; ++i) run.simulation->next();
+    std::vector<Vec3>& velocities = all.emplace_back();
+    for (std::uint32_t key = 0; key < 1000; ++key) velocities.push_back(run.state(key).velocity_W);
+  }
+  EXPECT_EQ(all[0], all[1]);
+  const auto moved = std::ranges::count_if(all[0], [](const Vec3& v) { return v.norm() > 0; });
+  EXPECT_GT(moved, 8);
+  EXPECT_LT(moved, 500) << "most are covered";
 }
 
 TEST(Blast, InsideASolidWhoseFacesAllPointAwayAppliesNoImpulse) {

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
 
+#include "engine/base/parallel.h"
+#include "engine/model/work_log.h"
 #include "engine/world/act/charge.h"
 #include "engine/world/act/cover.h"
 #include "engine/world/actors/make_actor.h"
@@ -15,11 +18,15 @@
 namespace sunder {
 namespace {
 
+constexpr const char* kBlastPoints = "points under blast";  // name of the work
+constexpr std::size_t kActorsPerChunk = 32;
+
 /// Impulse of a blast on a part of an actor.
 struct BlastImpulse {
   Vec3 impulse_W = Vec3::Zero();
   Vec3 weighted_point_W = Vec3::Zero();  ///< Sum of points times impulse sizes.
   double sum_Ns = 0;                     ///< Sum of impulse sizes.
+  std::uint64_t points = 0;              ///< Points at which the impulse was computed.
 
   void add(const Vec3& impulse, const Vec3& point_W) {
     const double size = impulse.norm();
@@ -46,6 +53,7 @@ void add_triangle(BlastImpulse& impulse, const Blast& blast, const Cover& cover,
     }
     return;
   }
+  ++impulse.points;
   const Vec3 double_area = (b - a).cross(c - a);
   const double facing = double_area.dot(blast.center_W - middle_W);
   if (facing <= 0 || cover.covers(middle_W, actor.key, slot)) return;
@@ -94,6 +102,7 @@ BlastImpulse impulse_on(const Blast& blast, const Cover& cover, const Actor& act
       add_face(impulse, blast, cover, actor, slot, f, X_WR);
       continue;
     }
+    ++impulse.points;
     Vec3 middle_R = Vec3::Zero();
     const auto corners = hull.face_corners(f);
     for (const std::uint32_t corner : corners) middle_R += hull.vertices[corner];
@@ -203,23 +212,34 @@ void add_breaking(const WorldState& world, const ActiveBlast& active, const Acto
   impact.energy_J = near_J;
 }
 
-void apply_impulse(WorldState& world, const Blast& blast, const Cover& cover, const Actor& actor) {
-  const Pose X_WR = rest_pose(actor, world.physics->state(actor.body).X_WB);
-  if (!reaches(blast, actor, X_WR)) return;
+/// Returns the impulse on an actor.
+BlastImpulse impulse_on(const Blast& blast, const Cover& cover, const Actor& actor,
+                        const Pose& X_WB) {
   BlastImpulse impulse;
+  const Pose X_WR = rest_pose(actor, X_WB);
+  if (actor.is_static || !reaches(blast, actor, X_WR)) return impulse;
   actor.structure.for_each([&](ConvexSlot slot, const Convex&) {
     const BlastImpulse part = impulse_on(blast, cover, actor, slot, X_WR);
     impulse.impulse_W += part.impulse_W;
     impulse.weighted_point_W += part.weighted_point_W;
     impulse.sum_Ns += part.sum_Ns;
+    impulse.points += part.points;
   });
   if (actor.structure.empty() && !cover.covers(X_WR.position)) {
     const double radius = ball_radius_m(actor.volume_m3);
     impulse.add(std::numbers::pi * radius * radius * impulse_on_ball_Ns_m2(blast, X_WR.position),
                 X_WR.position);
   }
-  if (impulse.sum_Ns <= 0) return;
-  world.log.report.energy.drives += push_actor(world, actor, impulse.impulse_W, impulse.point_W());
+  return impulse;
+}
+
+/// Returns false if no impulse breaks an actor: add_bending() and add_breaking() add nothing.
+bool may_break(const WorldState& world, const Actor& actor) {
+  if (actor.stress.least_J < std::numeric_limits<double>::infinity()) return true;
+  return std::ranges::any_of(actor.materials, [&](MaterialIndex index) {
+    const Material& material = world.material(index);
+    return material.breakable() && actor.volume_m3 >= material.min_breakable_volume_m3();
+  });
 }
 
 /// Applies a blast's impulse to a chip at its current position.
@@ -242,23 +262,47 @@ ActiveBlast start_blast(const WorldState& world, Blast blast, std::uint32_t numb
   return {std::move(blast), world.clock.time_s() + kBlastBreakTime_s, {}, number};
 }
 
-std::vector<ActorImpact> find_blast_impacts(const WorldState& world, ActiveBlast& active) {
-  const BodyStates states = world.physics->states();
-  const Cover cover(world, active.blast);
-  std::vector<ActorImpact> impacts;
-  for (const Actor& actor : world.actors) {
-    const Pose X_WR = rest_pose(actor, states[actor.body].X_WB);
-    if (actor.is_kinematic || !reaches(active.blast, actor, X_WR)) continue;
+std::vector<ActorImpact> find_blast_impacts(WorldState& world, ActiveBlast& active) {
+  struct Found {
+    std::uint32_t place = 0;  ///< Of the actor.
+    std::uint64_t points = 0;
     ActorImpact impact;
-    impact.key = actor.key;
-    impact.blast = active.number;
-    std::vector<BlastImpulse> impulses = impulses_on(active.blast, cover, actor, X_WR);
-    const auto bent = active.bent.find(actor.key);
-    if (bent == active.bent.end() || bent->second != actor.edits) {
-      active.bent[actor.key] = actor.edits;
-      add_bending(world, actor, X_WR, impulses, impact);
+  };
+  const BodyStates states = world.physics->states();
+  std::vector<Found> all = collect_chunks<Found>(
+      world.actors.size(), kActorsPerChunk,
+      [&](std::size_t begin, std::size_t end, std::vector<Found>& found) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Actor& actor = world.actors[i];
+          if (actor.is_kinematic || !may_break(world, actor)) continue;
+          if (reaches(active.blast, actor, rest_pose(actor, states[actor.body].X_WB)))
+            found.push_back({static_cast<std::uint32_t>(i), 0, {}});
+        }
+      });
+  if (all.empty()) return {};
+  const Cover cover(world, active.blast);
+  WorkSpan span(world.log.work_counts, Stage::kAct, kBlastPoints);
+  for_chunks(all.size(), kActorsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Actor& actor = world.actors[all[i].place];
+      const Pose X_WR = rest_pose(actor, states[actor.body].X_WB);
+      ActorImpact& impact = all[i].impact;
+      impact.key = actor.key;
+      impact.blast = active.number;
+      std::vector<BlastImpulse> impulses = impulses_on(active.blast, cover, actor, X_WR);
+      for (const BlastImpulse& impulse : impulses) all[i].points += impulse.points;
+      const auto bent = active.bent.find(actor.key);
+      if (bent == active.bent.end() || bent->second != actor.edits)
+        add_bending(world, actor, X_WR, impulses, impact);
+      add_breaking(world, active, actor, std::move(impulses), impact);
     }
-    add_breaking(world, active, actor, std::move(impulses), impact);
+  });
+  std::vector<ActorImpact> impacts;
+  for (Found& found : all) {
+    span.count(found.points);
+    const Actor& actor = world.actors[found.place];
+    active.bent[actor.key] = actor.edits;
+    ActorImpact& impact = found.impact;
     if (impact.energy_J > 0 || !impact.impulses.empty()) impacts.push_back(std::move(impact));
   }
   for (const ActorImpact& impact : impacts)
@@ -268,11 +312,28 @@ std::vector<ActorImpact> find_blast_impacts(const WorldState& world, ActiveBlast
 
 void apply_blast_impulses(WorldState& world, const Blast& blast) {
   const Cover cover(world, blast);
+  WorkSpan span(world.log.work_counts, Stage::kAct, kBlastPoints);
   if (world.exposed) {
-    for (DebrisPiece& chip : world.exposed->chips) apply_impulse(world, blast, cover, chip);
+    std::vector<DebrisPiece>& chips = world.exposed->chips;
+    for_chunks(chips.size(), kActorsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) apply_impulse(world, blast, cover, chips[i]);
+    });
+    span.count(chips.size());
   }
-  for (const Actor& actor : world.actors) {
-    if (!actor.is_static) apply_impulse(world, blast, cover, actor);
+  const BodyStates states = world.physics->states();
+  std::vector<BlastImpulse> impulses(world.actors.size());
+  for_chunks(impulses.size(), kActorsPerChunk,
+             [&](std::size_t begin, std::size_t end, std::size_t) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 const Actor& actor = world.actors[i];
+                 impulses[i] = impulse_on(blast, cover, actor, states[actor.body].X_WB);
+               }
+             });
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    span.count(impulses[i].points);
+    if (impulses[i].sum_Ns <= 0) continue;
+    world.log.report.energy.drives +=
+        push_actor(world, world.actors[i], impulses[i].impulse_W, impulses[i].point_W());
   }
 }
 

@@ -32,8 +32,8 @@ struct ActiveBlast {
 ActiveBlast start_blast(const WorldState& world, Blast blast, std::uint32_t number);
 /// Returns the impacts of a blast: by pattern, at each actor's untried point of largest impulse; by
 /// stress, with all impulses on each actor that has been edited since the last time. Records both
-/// in `active`.
-std::vector<ActorImpact> find_blast_impacts(const WorldState& world, ActiveBlast& active);
+/// in `active`, and counts the work.
+std::vector<ActorImpact> find_blast_impacts(WorldState& world, ActiveBlast& active);
 /// Applies the impulse of a blast to all movable actors and to the chips of this frame.
 void apply_blast_impulses(WorldState& world, const Blast& blast);
 
