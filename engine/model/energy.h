@@ -6,7 +6,9 @@ namespace sunder {
 /// Changes of the kinetic energy of all bodies that are neither static nor kinematic, in J.
 struct EnergyFlows {
   double gravity = 0;  ///< Work of gravity.
-  double drives = 0;   ///< Work of drives, of blasts, and of contacts with kinematic bodies.
+  /// Work of drives, of blasts, of contacts with kinematic bodies, and of what slows down bodies
+  /// that are too fast (Limit::kSpeeds).
+  double drives = 0;
   /// Energy of bodies that the script added, less that of bodies that it removed.
   double script = 0;
   // Losses:

@@ -26,9 +26,9 @@ enum class Limit : std::uint8_t {
   kImpactSweeps,
   kJointBand,
   kPlanarSteps,
+  kSpeeds,
 };
-inline constexpr std::size_t kLimits =
-    std::size_t{1} + static_cast<std::size_t>(Limit::kPlanarSteps);
+inline constexpr std::size_t kLimits = std::size_t{1} + static_cast<std::size_t>(Limit::kSpeeds);
 
 /// Texts that explain a limit to the user.
 struct LimitText {
@@ -81,6 +81,8 @@ inline constexpr std::array<LimitText, kLimits> kLimitTexts = {{
     {"planar_steps",
      "steps in which a body of a planar scene was so fast that it may have passed through others",
      "lower accuracy.dt_s"},
+    {"speeds", "steps in which bodies were slowed down to 1e5 m/s or 1e6 rad/s along each axis",
+     "give bodies less speed or impulse"},
 }};
 
 /// Number of times that each limit was reached.

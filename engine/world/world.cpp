@@ -469,8 +469,8 @@ void World::set_motion(BodyKey body, const BodyMotion& motion) {
   const Actor& actor = parts_->movable(body, "set_motion");
   const ItemCheck check = parts_->change("set_motion");
   check.pose(motion.X_WR, "motion.X_WR");
-  check.need_vector(motion.velocity_W, ranges::kSpeed, "motion.velocity_W");
-  check.need_vector(motion.angular_velocity_W, ranges::kSpeed, "motion.angular_velocity_W");
+  check.need_vector(motion.velocity_W, ranges::kSpeed_m_s, "motion.velocity_W");
+  check.need_vector(motion.angular_velocity_W, ranges::kSpin_rad_s, "motion.angular_velocity_W");
   parts_->changed();
   const Quat rotation = motion.X_WR.rotation.normalized();
   const Pose X_WR{motion.X_WR.position, rotation};

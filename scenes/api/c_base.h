@@ -103,8 +103,10 @@ void need_vector(const SunderVec3& vector, double most, const std::string& name)
 /// Returns a string; empty for null.
 inline std::string text_of(const char* text) { return text ? text : ""; }
 
-/// Largest coordinate, in m, and speed, in m/s or rad/s, of what is added or moved.
-inline constexpr double kMaxPosition_m = ranges::kPlace_m.high, kMaxSpeed_m_s = ranges::kSpeed.high;
+/// Largest coordinate and speeds of what is added or moved.
+inline constexpr double kMaxPosition_m = ranges::kPlace_m.high,
+                        kMaxSpeed_m_s = ranges::kSpeed_m_s.high,
+                        kMaxSpin_rad_s = ranges::kSpin_rad_s.high;
 inline constexpr double kMaxImpulse_Ns = 1e15;
 
 inline Vec3 vec(const SunderVec3& v) { return {v.x, v.y, v.z}; }

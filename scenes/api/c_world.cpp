@@ -131,7 +131,7 @@ Material material_from(const Material& base, const SunderMaterialDef& def) {
 void need_motion(const SunderMotion& motion, const std::string& name) {
   need_vector(motion.X_WR.position, kMaxPosition_m, name + ".X_WR.position");
   need_vector(motion.velocity_W, kMaxSpeed_m_s, name + ".velocity_W");
-  need_vector(motion.angular_velocity_W, kMaxSpeed_m_s, name + ".angular_velocity_W");
+  need_vector(motion.angular_velocity_W, kMaxSpin_rad_s, name + ".angular_velocity_W");
 }
 
 Ball ball_of(WorldEntry& entry, const SunderBallDef& def, const std::string& name) {
@@ -471,7 +471,7 @@ SunderResult sunder_world_drive(SunderWorld world, const SunderDriveDef* drive) 
       made.velocity_W = vec(drive->velocity_W);
     }
     if (drive->has_angular_velocity) {
-      need_vector(drive->angular_velocity_W, kMaxSpeed_m_s, "drive.angular_velocity_W");
+      need_vector(drive->angular_velocity_W, kMaxSpin_rad_s, "drive.angular_velocity_W");
       made.angular_velocity_W = vec(drive->angular_velocity_W);
     }
     made.force_N = drive->force_N;

@@ -473,7 +473,7 @@ SUNDER_API SunderResult sunder_world_remove_body(SunderWorld world, SunderBody b
 /// Removes a joint.
 SUNDER_API SunderResult sunder_world_remove_joint(SunderWorld world, SunderJoint joint);
 /// Sets the pose and velocities of a body that is not anchored, and wakes it. Speeds are at most
-/// 1e9.
+/// 1e5 m/s and 1e6 rad/s along each axis.
 SUNDER_API SunderResult sunder_world_set_motion(SunderWorld world, SunderBody body,
                                                 const SunderMotion* motion);
 /// Moves a body evenly to a pose within a time from 1e-6 s on, as a kinematic body: of infinite

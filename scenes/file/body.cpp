@@ -46,11 +46,10 @@ Keys<MeshTable> make_mesh_keys() {
 }
 
 Keys<BodyTable> make_body_keys() {
-  constexpr Range kSpeed = ranges::kSpeed;
   return {"[[body]]",
           {key<&BodyTable::name>("name", "Name in messages; that of the mesh by default."),
-           key<&BodyTable::velocity>("velocity", "m/s", kSpeed, "Initial velocity."),
-           key<&BodyTable::angular_velocity>("angular_velocity", "rad/s", kSpeed,
+           key<&BodyTable::velocity>("velocity", "m/s", ranges::kSpeed_m_s, "Initial velocity."),
+           key<&BodyTable::angular_velocity>("angular_velocity", "rad/s", ranges::kSpin_rad_s,
                                              "Initial angular velocity."),
            choice<&BodyTable::anchored>("anchored", anchored_names(),
                                         "bottom: the lowest parts are fixed to the world; all: all "

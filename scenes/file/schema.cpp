@@ -4,7 +4,7 @@
 namespace sunder::scenes {
 namespace {
 
-using ranges::kAtLeastZero, ranges::kFraction, ranges::kSpeed;
+using ranges::kAtLeastZero, ranges::kFraction, ranges::kSpeed_m_s, ranges::kSpin_rad_s;
 constexpr Range kPlace = ranges::kPlace_m;
 constexpr Range kRadius = ranges::kLength_m;
 constexpr Range kTime = ranges::kFileTime_s;
@@ -173,8 +173,8 @@ Keys<SolidHead> solid_keys() {
           {key<&SolidHead::structure>("structure", "Type of structure, whose keys follow below.")
                .must(),
            key<&SolidHead::name>("name", "Name in messages; that of the structure by default."),
-           key<&SolidHead::velocity>("velocity", "m/s", kSpeed, "Initial velocity."),
-           key<&SolidHead::angular_velocity>("angular_velocity", "rad/s", kSpeed,
+           key<&SolidHead::velocity>("velocity", "m/s", kSpeed_m_s, "Initial velocity."),
+           key<&SolidHead::angular_velocity>("angular_velocity", "rad/s", kSpin_rad_s,
                                              "Initial angular velocity."),
            choice<&SolidHead::anchored>(
                "anchored", kAnchored,
@@ -187,10 +187,10 @@ Keys<ShotTable> shot_keys() {
   return {"[[script.shot]]",
           {key<&ShotTable::time_s>("time_s", "s", kTime, "Time at which the ball appears.").must(),
            key<&ShotTable::from>("from", "m", kPlace, "Initial position of the centre.").must(),
-           key<&ShotTable::velocity>("velocity", "m/s", kSpeed,
+           key<&ShotTable::velocity>("velocity", "m/s", kSpeed_m_s,
                                      "Initial velocity; alternatively `at`."),
            key<&ShotTable::at>("at", "m", kPlace, "Target, aimed at in a straight line."),
-           key<&ShotTable::speed_m_s>("speed_m_s", "m/s", Range{0, kSpeed.high},
+           key<&ShotTable::speed_m_s>("speed_m_s", "m/s", Range{0, kSpeed_m_s.high},
                                       "Initial speed, with `at`."),
            key<&ShotTable::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
            key<&ShotTable::material>("material", "Material of the ball."),
@@ -206,7 +206,7 @@ Keys<WreckingBallTable> wrecking_ball_keys() {
                "hangs_from", "m", kPlace,
                "Suspension point; the chain is as long as its distance from the ball.")
                .must(),
-           key<&Given::velocity>("velocity", "m/s", kSpeed, "Initial velocity."),
+           key<&Given::velocity>("velocity", "m/s", kSpeed_m_s, "Initial velocity."),
            key<&Given::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
            key<&Given::links>("links", "", Range{0, 200},
                               "Links of the chain; 0: a massless rope to the centre of the ball."),
@@ -249,9 +249,9 @@ Keys<DriveTable> drive_keys() {
           {key<&DriveTable::name>("name", "Solid or ball that is driven until it breaks.").must(),
            key<&DriveTable::time_s>("time_s", "s", kTime, "Start time."),
            key<&DriveTable::until_s>("until_s", "s", kTime, "End time."),
-           key<&DriveTable::velocity>("velocity", "m/s", kSpeed, "Target velocity."),
+           key<&DriveTable::velocity>("velocity", "m/s", kSpeed_m_s, "Target velocity."),
            key<&DriveTable::force_N>("force_N", "N", ranges::kForce, "Maximum force."),
-           key<&DriveTable::angular_velocity>("angular_velocity", "rad/s", kSpeed,
+           key<&DriveTable::angular_velocity>("angular_velocity", "rad/s", kSpin_rad_s,
                                               "Target angular velocity."),
            key<&DriveTable::torque_Nm>("torque_Nm", "N·m", ranges::kForce, "Maximum torque.")}};
 }
@@ -414,7 +414,7 @@ Schema make_schema() {
   s.ball = {"[[ball]]",
             {key<&BallTable::name>("name", "Name in messages."),
              key<&BallTable::position>("position", "m", kPlace, "Position of the centre."),
-             key<&BallTable::velocity>("velocity", "m/s", kSpeed, "Initial velocity."),
+             key<&BallTable::velocity>("velocity", "m/s", kSpeed_m_s, "Initial velocity."),
              key<&BallTable::radius_m>("radius_m", "m", kRadius, "Radius of the ball."),
              key<&BallTable::material>("material", "Material of the ball.")}};
   s.script = {

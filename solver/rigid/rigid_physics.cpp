@@ -3,6 +3,7 @@
 #include "solver/rigid/rigid_physics.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "engine/base/archive.h"
@@ -112,7 +113,7 @@ class RigidPhysics final : public Physics {
   void update_contacts();
   void find_reaches();
   ContactSolveReport solve_contacts(const StepContext& step);
-  Vec3 freeze_broken();
+  Momentum hold_to_limits();
   const ContactsOfBodies& contacts_of_bodies();
   const std::vector<ShapeSlot>& strays();
   void retest_pairs_of(JointId joint);
@@ -136,6 +137,8 @@ class RigidPhysics final : public Physics {
   /// Length of the substep that the stored impulses are from; 0: no impulses stored.
   StepLengths last_step_;
   std::uint32_t frozen_ = 0;  ///< Number of bodies frozen since the last solve began.
+  bool slowed_ = false;       ///< A body was slowed down since the last solve began.
+  double slowed_J_ = 0;       ///< Energy that this took before the solve.
   bool skipped_ = false;      ///< Contacts of dense clusters were left out since the last solve.
   ByBody<StepReach> reach_;
   WorkLog work_;
@@ -147,7 +150,7 @@ void RigidPhysics::archive(Archive& bytes) {
   joints_.update_ignored_pairs(bodies_);
   // The other members are found anew in every step.
   bytes(bodies_, shapes_, contacts_, joints_, broad_phase_, dense_clusters_, speculative_contacts_,
-        paused_, last_step_, frozen_, skipped_, reach_);
+        paused_, last_step_, frozen_, skipped_, slowed_, slowed_J_, reach_);
   if (!bytes.reads()) return;
   bytes.refuse_field<Shapes>(shapes_.wrong_field(bodies_));
   bytes.refuse_field<Contacts>(contacts_.wrong_field(bodies_, shapes_));
@@ -257,7 +260,7 @@ void RigidPhysics::edit(const BodyEdit& edit) {
 
 void RigidPhysics::collide(double dt_s) {
   queries_valid_ = false;
-  freeze_broken();
+  slowed_J_ += hold_to_limits().kinetic_J;
   step_ = StepContext(options_.gravity_W, dt_s);
   find_near();
   update_contacts();
@@ -371,13 +374,21 @@ void RigidPhysics::update_contacts() {
   std::fill(bodies_.changed.begin(), bodies_.changed.end(), std::uint8_t{0});
 }
 
-Vec3 RigidPhysics::freeze_broken() {
-  Vec3 taken = Vec3::Zero();
+/// Slows down bodies that are too fast, and freezes those that are not finite; returns the momentum
+/// and energy that this takes.
+Momentum RigidPhysics::hold_to_limits() {
+  Momentum taken;
   for (const BodySlot body : bodies_.slots()) {
-    if (!bodies_.awake(body) || bodies_.finite(body)) continue;
+    if (!bodies_.awake(body) || bodies_.is_within_limits(body)) continue;
+    if (const std::optional<Momentum> slowed = bodies_.slow_down(body)) {
+      taken.momentum_Ns += slowed->momentum_Ns;
+      taken.kinetic_J += slowed->kinetic_J;
+      slowed_ = true;
+      continue;
+    }
     if (!bodies_.position[body].allFinite() || !bodies_.rotation[body].coeffs().allFinite())
       bodies_.place(body, Vec3::Zero(), Quat::Identity());
-    taken -= bodies_.freeze(body);
+    taken.momentum_Ns += bodies_.freeze(body);
     ++frozen_;
   }
   return taken;
@@ -471,7 +482,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   const StepLengths lengths{dt_s, step.h_s};
   change_step(std::exchange(last_step_, lengths), lengths, bodies_, contacts_, joints_);
   SolveReport report;
-  freeze_broken();
+  slowed_J_ += hold_to_limits().kinetic_J;
   joints_.wake(bodies_);
   joints_.clear_flows();
   paused_.suspend(bodies_);
@@ -485,11 +496,13 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   static_warm_start_.apply(step, options_.static_warm_start, bodies_, contacts_);
   bodies_.clear_step_flags();
   passages_.begin(bodies_);
-  const ContactSolveReport solved = solve_contacts(step);
+  ContactSolveReport solved = solve_contacts(step);
   for (const BodySlot body : bodies_.slots())
     if (bodies_.is_moving_kinematic(body)) move_kinematic(step, body, bodies_);
   report.external_impulse_Ns = solved.outside_impulse_Ns + dt_s * awake_mass * options_.gravity_W;
-  report.external_impulse_Ns += freeze_broken();
+  const Momentum taken = hold_to_limits();
+  report.external_impulse_Ns -= taken.momentum_Ns;
+  solved.work.drive_J -= taken.kinetic_J;
   joints_.update_ignored_pairs(bodies_);
   const auto back = passages_.put_back(step, broad_phase_, shapes_, joints_, bodies_);
   report.external_impulse_Ns -= back.impulse_Ns;
@@ -499,6 +512,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   report.momentum_after_Ns = end.momentum_Ns;
   report.mass_kg = end.mass_kg;
   report.energy = energy_of(solved, step, start, end);
+  report.energy.drives -= std::exchange(slowed_J_, 0);
   report.friction_allowed_Ns = solved.work.allowed_Ns;
   report.friction_excess_Ns = solved.work.excess_Ns;
   paused_.resume(bodies_);  // paused bodies are not asleep: contacts no longer wake them
@@ -514,6 +528,7 @@ SolveReport RigidPhysics::solve(double dt_s, int substeps) {
   for (const BodySlot body : bodies_.slots()) report.awake += bodies_.awake(body);
   report.limits = solved.limits;
   report.limits[Limit::kDenseClusters] = std::exchange(skipped_, false);
+  report.limits[Limit::kSpeeds] = std::exchange(slowed_, false);
   report.frozen = frozen_;
   frozen_ = 0;
   return report;

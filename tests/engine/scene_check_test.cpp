@@ -57,6 +57,11 @@ TEST(SceneCheck, NamesWhatIsWrong) {
        [](Scene& s) {
          s.solids[1].compound.anchored = {0, 0};
        }},
+      {"solids[1].velocity_W has the element",
+       [](Scene& s) { s.solids[1].velocity_W.x() = 100001; }},
+      {"solids[1].angular_velocity_W has the element",
+       [](Scene& s) { s.solids[1].angular_velocity_W.y() = -1.1e6; }},
+      {"balls[0].velocity_W has the element", [](Scene& s) { s.balls[0].velocity_W.z() = 1.1e5; }},
       {"X_WR.position", [](Scene& s) { s.solids[1].X_WR.position.x() = kNaN; }},
       {"X_WR.rotation", [](Scene& s) { s.solids[1].X_WR.rotation.coeffs().setZero(); }},
       {"velocity_W", [](Scene& s) { s.solids[0].velocity_W.z() = kNaN; }},

@@ -153,15 +153,15 @@ void ItemCheck::solid(const Solid& solid, const std::string& name) const {
   convexes(solid.compound, name + ".compound");
   for (const ConvexPtr& convex : solid.compound.convexes) material_index(convex->material, name);
   pose(solid.X_WR, name + ".X_WR");
-  need_vector(solid.velocity_W, ranges::kSpeed, name + ".velocity_W");
-  need_vector(solid.angular_velocity_W, ranges::kSpeed, name + ".angular_velocity_W");
+  need_vector(solid.velocity_W, ranges::kSpeed_m_s, name + ".velocity_W");
+  need_vector(solid.angular_velocity_W, ranges::kSpin_rad_s, name + ".angular_velocity_W");
 }
 
 void ItemCheck::ball(const Ball& ball, const std::string& name) const {
   need_number(ball.radius_m, ranges::kLength_m, name + ".radius_m");
   material_index(ball.material, name);
   need_vector(ball.center_W, ranges::kPlace_m, name + ".center_W");
-  need_vector(ball.velocity_W, ranges::kSpeed, name + ".velocity_W");
+  need_vector(ball.velocity_W, ranges::kSpeed_m_s, name + ".velocity_W");
 }
 
 void ItemCheck::blast(const Blast& blast, const std::string& name) const {
@@ -184,8 +184,8 @@ void ItemCheck::drive(const Drive& drive, const std::string& name) const {
   need_number(drive.until_s, drive.time_s, ranges::kInfinity, name + ".until_s");
   if (!drive.velocity_W && !drive.angular_velocity_W)
     refuse(name + " has no velocity", "velocity_W, angular_velocity_W or both");
-  need_vector(drive.velocity_W.value_or(Vec3::Zero()), ranges::kSpeed, name + ".velocity_W");
-  need_vector(drive.angular_velocity_W.value_or(Vec3::Zero()), ranges::kSpeed,
+  need_vector(drive.velocity_W.value_or(Vec3::Zero()), ranges::kSpeed_m_s, name + ".velocity_W");
+  need_vector(drive.angular_velocity_W.value_or(Vec3::Zero()), ranges::kSpin_rad_s,
               name + ".angular_velocity_W");
   need_number(drive.force_N, ranges::kForce, name + ".force_N");
   need_number(drive.torque_Nm, ranges::kForce, name + ".torque_Nm");

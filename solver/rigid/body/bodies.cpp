@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/state_checks.h"
 #include "engine/geometry/inertia.h"
+#include "engine/model/checks/ranges.h"
 
 namespace sunder::solver {
 namespace {
@@ -30,6 +31,8 @@ InertiaRoot inertia_root(const Mat3& inertia_B) {
   result.uneven = moments.minCoeff() < (1 - 1e-6) * moments.maxCoeff();
   return result;
 }
+
+double largest(const Vec3& vector) { return vector.cwiseAbs().maxCoeff(); }
 
 Shape make_shape(const ShapeDesc& desc, const Vec3& com_R) {
   Shape shape;
@@ -183,11 +186,31 @@ void Bodies::place(BodySlot body, const Vec3& position_W, const Quat& rotation_W
   rotation_f[body] = rotation[body].toRotationMatrix().cast<float>();
 }
 
-bool Bodies::finite(BodySlot body) const {
-  // Above 1e9 m/s squares do not fit a float: counts as infinite.
+bool Bodies::is_within_limits(BodySlot body) const {
   return position[body].allFinite() && rotation[body].coeffs().allFinite() &&
-         velocity[body].cwiseAbs().maxCoeff() < 1e9 && velocity[body].allFinite() &&
-         angular_velocity[body].cwiseAbs().maxCoeff() < 1e9 && angular_velocity[body].allFinite();
+         largest(velocity[body]) <= ranges::kSpeed_m_s.high && velocity[body].allFinite() &&
+         largest(angular_velocity[body]) <= ranges::kSpin_rad_s.high &&
+         angular_velocity[body].allFinite();
+}
+
+std::optional<Momentum> Bodies::slow_down(BodySlot body) {
+  constexpr double kMostSquarable = 1e150;
+  Vec3 &v = velocity[body], &w = angular_velocity[body];
+  if (!position[body].allFinite() || !rotation[body].coeffs().allFinite()) return std::nullopt;
+  if (!v.allFinite() || !w.allFinite() || std::max(largest(v), largest(w)) > kMostSquarable)
+    return std::nullopt;
+  Momentum taken{0, mass_kg[body] * v, kinetic_J(body)};
+  const auto hold = [](Vec3& speed, const Range& range) {
+    if (largest(speed) <= range.high) return;
+    speed *= range.high / largest(speed);
+    speed = speed.cwiseMax(range.low).cwiseMin(range.high);  // against rounding
+  };
+  hold(v, ranges::kSpeed_m_s);
+  hold(w, ranges::kSpin_rad_s);
+  changed[body] = 1;
+  taken.momentum_Ns -= mass_kg[body] * v;
+  taken.kinetic_J -= kinetic_J(body);
+  return taken;
 }
 
 Vec3 Bodies::freeze(BodySlot body) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -106,7 +107,11 @@ struct Bodies {
   void remove(BodySlot body);
   /// Sets the pose and what is derived from it.
   void place(BodySlot body, const Vec3& position_W, const Quat& rotation_WB);
-  bool finite(BodySlot body) const;
+  /// True if the pose is finite, and the speeds are within the ranges of scenes.
+  bool is_within_limits(BodySlot body) const;
+  /// Slows a body down to the ranges of scenes, if it is finite; returns the momentum and energy
+  /// that this takes.
+  std::optional<Momentum> slow_down(BodySlot body);
   /// Freezes a body for good and returns the momentum that it had.
   Vec3 freeze(BodySlot body);
   /// Sets the state of motion of a mobile body and wakes it; has no effect on other bodies.
