@@ -75,8 +75,7 @@ TEST(SolverLimits, BodiesThatAreTooFastAreSlowedDownWithAllMomentumAndEnergyAcco
     RigidWorld world(awake(Vec3::Zero()));
     const BodyDesc box = W::box(Vec3::Ones(), Vec3::Zero());
     const BodyId id = world.add(box);
-    for (int i = 0; i < 5; ++i)
-      world.add(W::box(Vec3::Ones(), Vec3(900 + 1.0 * i, 0.3 * i, 0)));
+    for (int i = 0; i < 5; ++i) world.add(W::box(Vec3::Ones(), Vec3(900 + 1.0 * i, 0.3 * i, 0)));
     const double before_J = world.kinetic_energy();
     world.physics().apply_impulse(id, box.mass_kg * speed_m_s * Vec3::UnitX(), Vec3::Zero());
     const double pushed_J = world.kinetic_energy() - before_J;
