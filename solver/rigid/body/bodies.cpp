@@ -96,8 +96,8 @@ void Bodies::resize(std::uint32_t count) {
 const char* Bodies::wrong_field() const {
   if (!have_size(size(), generation, position, com_R, rotation, rotation_f, velocity,
                  angular_velocity, mass_kg, inertia_B, inverse_mass, root_B, is_gyroscopic, reach_m,
-                 rotation_path_m, slow_s, resting_s, lost_N, rest_position, rest_rotation, is_new, changed,
-                 displaced, reports_load, tag, filter, first_shape))
+                 rotation_path_m, slow_s, resting_s, lost_N, rest_position, rest_rotation, is_new,
+                 changed, displaced, reports_load, tag, filter, first_shape))
     return "motion";
   if (!are_different_below(free_slots, size())) return "free_slots";
   const auto absent = static_cast<std::size_t>(std::ranges::count(motion, Motion::kAbsent));
