@@ -553,7 +553,7 @@ static void refusals(void) {
   ball.velocity_W.z = INFINITY;
   REFUSED(sunder_world_add_ball(world, &ball, NULL), ARGUMENT, "ball.velocity_W.z is inf");
   ball.velocity_W.z = -1.1e5;
-  REFUSED(sunder_world_add_ball(world, &ball, NULL), ARGUMENT, "ball.velocity_W.z is -1.1e+05");
+  REFUSED(sunder_world_add_ball(world, &ball, NULL), ARGUMENT, "ball.velocity_W.z is -110000");
   REFUSED(sunder_world_add_ball(world, NULL, NULL), ARGUMENT, "ball is null");
   SunderShotDef shot = sunder_default_shot_def();
   shot.ball.cookie = 0;
