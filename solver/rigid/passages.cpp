@@ -7,6 +7,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/rotation.h"
+#include "solver/rigid/body/motion.h"
 #include "solver/rigid/collide/narrow_phase.h"
 #include "solver/rigid/tuning.h"
 
@@ -212,6 +213,21 @@ bool is_fast(BodySlot body, const TakenPaths& paths, const Shapes& shapes) {
   return false;
 }
 
+/// Returns a body to an earlier part of its path, with the angular momentum that it has now and no
+/// more energy: it keeps its rotation if it would have more in every one near the earlier one.
+void return_to(double part, const TakenPath& path, BodySlot body, Bodies& bodies) {
+  const Pose then = path.at(part);
+  const Mat3& inertia_B = bodies.inertia_B[body];
+  const Vec3& w_W = bodies.angular_velocity[body];
+  const Vec3 spin_W = path.end.rotation * (inertia_B * (path.end.rotation.conjugate() * w_W));
+  const double energy_J = 0.5 * spin_W.dot(w_W), turn = path.turn_W.norm();
+  RotationState earlier = rotation_with_energy(inertia_B, then.rotation, spin_W, energy_J, turn);
+  if (0.5 * spin_W.dot(earlier.w_W) > energy_J) earlier = {path.end.rotation, w_W};
+  bodies.angular_velocity[body] = earlier.w_W;
+  bodies.rotation_path_m[body] += 1.1 * 2 * turn * bodies.reach_m[body];
+  bodies.place(body, then.position, earlier.R_WB);
+}
+
 }  // namespace
 
 void Passages::begin(const Bodies& bodies) {
@@ -262,10 +278,7 @@ Passages::PutBack Passages::put_back(const StepContext& step, const BroadPhase& 
     const Vec3 fall_m_s = (1 - part[body]) * step.dt_s * step.gravity_W;
     bodies.velocity[body] -= fall_m_s;
     all.impulse_Ns += bodies.mass_kg[body] * fall_m_s;
-    const TakenPath path = paths[body];
-    const Pose pose = path.at(part[body]);
-    bodies.rotation_path_m[body] += 1.1 * path.turn_W.norm() * bodies.reach_m[body];
-    bodies.place(body, pose.position, pose.rotation);
+    return_to(part[body], paths[body], body, bodies);
     bodies.changed[body] = 1;
   }
   return all;

@@ -13,8 +13,9 @@ namespace sunder::solver {
 
 /// Puts back what the contacts of a step did not stop: shapes that were apart from another, and
 /// whose centre went into it.
-/// Both bodies return to where they were before they met, with the velocities that they have less
-/// what gravity added since, and the next step finds their contact.
+/// Both bodies return to where they were before they met, with the momentum that they have less what
+/// gravity added since, their angular momentum and no more energy, and the next step finds their
+/// contact.
 class Passages {
  public:
   /// Keeps the poses at the start of a step.
