@@ -228,6 +228,25 @@ void return_to(double part, const TakenPath& path, BodySlot body, Bodies& bodies
   bodies.place(body, then.position, earlier.R_WB);
 }
 
+/// Stops two bodies in the direction in which they went into each other, as their contact did not,
+/// and returns the impulse on what is not awake.
+Vec3 stop(const Passage& passage, const TakenPaths& paths, Bodies& bodies) {
+  const auto way_m = [&](BodySlot body) -> Vec3 {
+    if (!paths.moves(body)) return Vec3::Zero();
+    return bodies.position[body] - paths.position[body];
+  };
+  const Vec3 along = (way_m(passage.a) - way_m(passage.b)).normalized();
+  const double speed_m_s = along.dot(bodies.velocity[passage.a] - bodies.velocity[passage.b]);
+  if (!(speed_m_s > 0)) return Vec3::Zero();
+  const double inverse_a = bodies.awake(passage.a) ? 1 / bodies.mass_kg[passage.a] : 0,
+               inverse_b = bodies.awake(passage.b) ? 1 / bodies.mass_kg[passage.b] : 0;
+  const Vec3 impulse_Ns = speed_m_s / (inverse_a + inverse_b) * along;
+  bodies.velocity[passage.a] -= inverse_a * impulse_Ns;
+  bodies.velocity[passage.b] += inverse_b * impulse_Ns;
+  if (inverse_a == 0) return -impulse_Ns;
+  return inverse_b == 0 ? impulse_Ns : Vec3(0, 0, 0);
+}
+
 }  // namespace
 
 void Passages::begin(const Bodies& bodies) {
@@ -274,6 +293,8 @@ Passages::PutBack Passages::put_back(const StepContext& step, const BroadPhase& 
   }
   PutBack all;
   all.bodies = returned.size();
+  for (const Passage& passage : passages)
+    if (passage.part == 0) all.impulse_Ns += stop(passage, paths, bodies);
   for (const BodySlot body : returned) {
     const Vec3 fall_m_s = (1 - part[body]) * step.dt_s * step.gravity_W;
     bodies.velocity[body] -= fall_m_s;

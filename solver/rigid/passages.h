@@ -13,16 +13,17 @@ namespace sunder::solver {
 
 /// Puts back what the contacts of a step did not stop: shapes that were apart from another, and
 /// whose centre went into it.
-/// Both bodies return to where they were before they met, with the momentum that they have less what
-/// gravity added since, their angular momentum and no more energy, and the next step finds their
-/// contact.
+/// Both bodies return to where they were before they met, with the momentum that they have less
+/// what gravity added since, their angular momentum and no more energy, and the next step finds
+/// their contact. Bodies whose contact did nothing in a whole step stop where they are, in the
+/// direction in which they went on.
 class Passages {
  public:
   /// Keeps the poses at the start of a step.
   void begin(const Bodies& bodies);
   struct PutBack {
     std::size_t bodies = 0;
-    Vec3 impulse_Ns = Vec3::Zero();  ///< Impulse of gravity that was taken back.
+    Vec3 impulse_Ns = Vec3::Zero();  ///< Impulse of gravity taken back, and of what does not move.
   };
   /// Puts back all bodies that passed through others since begin(), with all that joints hold to
   /// them.

@@ -219,7 +219,7 @@ void expect_few(bool at_wall, const ByPreset& most_centers, const ByPreset& most
 }
 
 TEST(Thin, HardlyAnyPlateOrBarPassesThroughAnother) {
-  expect_few(false, {6, 4, 4, 0}, {60, 30, 30, 8});
+  expect_few(false, {6, 4, 5, 0}, {60, 30, 30, 8});
 }
 
 TEST(Thin, HardlyAnyPlateOrBarPassesThroughAWall) { expect_few(true, {3, 3, 2, 1}, {8, 8, 8, 4}); }
