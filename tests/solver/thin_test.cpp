@@ -261,6 +261,27 @@ TEST(Thin, ARodLiesOnTheGroundAndRests) {
   }
 }
 
+TEST(Thin, PlatesAndRodsThatAreBuriedComeOutAndRest) {
+  constexpr double kThickness = 0.001, kDepth = 0.0155;
+  for (const Preset& preset : kPresets) {
+    for (const double width : {0.001, 0.5}) {
+      for (const double tilt : {0., 0.01, 0.03}) {
+        RigidOptions options;
+        options.sweeps = preset.sweeps;
+        RigidWorld world(options);
+        world.add(W::ground());
+        BodyDesc sliver = W::box(Vec3(1, kThickness, width), Vec3(0, -kDepth, 0), 1000);
+        sliver.X_WB.rotation = Quat(Eigen::AngleAxisd(tilt, Vec3(0, 0, 1)));
+        const BodyId id = world.add(sliver);
+        world.run(2, preset.dt_s, preset.substeps);
+        const BodyState end = world.state(id);
+        EXPECT_GT(end.X_WB.position.y(), 0) << preset.name << " " << width << " " << tilt;
+        EXPECT_LT(end.velocity_W.norm(), 1e-3) << preset.name << " " << width << " " << tilt;
+      }
+    }
+  }
+}
+
 TEST(Thin, ABallStaysInAClosedRoom) {
   constexpr double kRoom = 4, kWall = 0.2;
   const auto text = [](const Preset& preset, double restitution, double speed, double radius) {

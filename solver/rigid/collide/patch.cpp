@@ -133,7 +133,8 @@ void drop_high(float layer_m, std::vector<PatchPoint>& points) {
     low[3] = p.separation_m;
     for (std::size_t i = 3; i > 0 && low[i] < low[i - 1]; --i) std::swap(low[i], low[i - 1]);
   }
-  const float limit = std::max(low[0] + layer_m, low[3]);
+  float limit = std::max(low[0] + layer_m, low[3]);
+  if (low[0] < -2 * layer_m) limit = std::max(limit, 0.f);
   std::erase_if(points, [&](const PatchPoint& p) { return p.separation_m > limit; });
 }
 

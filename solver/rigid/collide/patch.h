@@ -39,7 +39,8 @@ void add_faces_at_edges(const Hull& a, const Hull& b, const RelativePose& pose,
 
 /// Keeps at most four points: the deepest, and those that span the largest area with it. Points
 /// more than `layer_m` above the deepest count only if fewer than four are below that: a piece
-/// would tip onto a deep point that was left out.
+/// would tip onto a deep point that was left out. All points that overlap count if the deepest does
+/// so by more than twice the layer: a thin plate that is held at one edge rocks and stays buried.
 void reduce_patch(const Vec3f& normal_A, float layer_m, std::vector<PatchPoint>& points);
 
 }  // namespace sunder::solver
