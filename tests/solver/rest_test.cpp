@@ -45,12 +45,12 @@ std::vector<BodyId> add_pile(RigidWorld& world, std::uint64_t seed) {
   return pile;
 }
 
-TEST(Rest, AllOfTenPilesSleepAfterSixSeconds) {
+TEST(Rest, AllOfTenPilesSleepAfterSevenSeconds) {
   for (const Preset& preset : kPresets) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       RigidWorld world(options_of(preset));
       const std::vector<BodyId> pile = add_pile(world, seed);
-      world.run(6, preset.dt_s, preset.substeps);
+      world.run(7, preset.dt_s, preset.substeps);
       const auto awake =
           std::ranges::count_if(pile, [&](BodyId id) { return !world.state(id).asleep; });
       EXPECT_EQ(awake, 0) << preset.name << ", pile " << seed << " of " << pile.size();
