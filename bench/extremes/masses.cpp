@@ -161,7 +161,6 @@ Scene large_wall(const Preset& preset) {
   return scene_at(preset, R"(
 [[material]]
 name = "concrete"
-strength_Ns = 0
 toughness_J_m2 = 1
 impact_radius_m = 0.05
 smallest_piece_m3 = 1e-9

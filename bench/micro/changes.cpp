@@ -48,8 +48,9 @@ World asleep(std::size_t bodies) {
   return world;
 }
 
-/// Removes the second cube of a pile; the two above it wake.
-void remove_one(benchmark::State& state) {
+/// Changes the second cube of a pile, and then that of another.
+template <typename Change>
+void change_one(benchmark::State& state, const Change& change) {
   const auto bodies = static_cast<std::size_t>(state.range(0));
   const World settled = asleep(bodies);
   std::optional<World> world;
@@ -61,24 +62,16 @@ void remove_one(benchmark::State& state) {
       state.ResumeTiming();
     }
     const std::size_t pile = 7919 * next++ % piles;
-    world->remove(BodyKey(4 * pile + 1));
+    change(*world, BodyKey(4 * pile + 1));
   }
 }
 
+void remove_one(benchmark::State& state) {
+  change_one(state, [](World& world, BodyKey key) { world.remove(key); });
+}
+
 void filter_one(benchmark::State& state) {
-  const auto bodies = static_cast<std::size_t>(state.range(0));
-  const World settled = asleep(bodies);
-  std::optional<World> world;
-  std::size_t next = 0, piles = bodies / 4;
-  for (auto _ : state) {
-    if (next % 100 == 0) {
-      state.PauseTiming();
-      world.emplace(settled.copy());
-      state.ResumeTiming();
-    }
-    const std::size_t pile = 7919 * next++ % piles;
-    world->set_filter(BodyKey(4 * pile + 1), {2, 1});
-  }
+  change_one(state, [](World& world, BodyKey key) { world.set_filter(key, {2, 1}); });
 }
 
 BENCHMARK(remove_one)
