@@ -51,8 +51,7 @@ double penetration_of_fifty(const Preset& preset) {
 
 /// Time by which a tower of a hundred cubes falls before `duration_s`; 0 if it does not fall.
 double missing_standing_s(const Preset& preset, double side_m, double duration_s, bool sleeping) {
-  solver::RigidOptions options;
-  options.sweeps = preset.sweeps;
+  solver::RigidOptions options = solver::options_of(preset);
   options.sleeping = sleeping;
   RigidWorld world(options);
   world.add(W::ground());

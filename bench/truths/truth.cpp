@@ -17,7 +17,7 @@ constexpr KnownSource kKnownSources[] = {
     {"Jarrett 1968", SourceKind::kMeasured},
     {"SimBenchmark", SourceKind::kOtherEngine},
     {"Box2D", SourceKind::kOtherEngine},
-    // What decides a perforation is computed by the same formulas.
+    // The engine computes perforations by these formulas.
     {"Recht and Ipson 1963, CEA-EDF", SourceKind::kOwn},
     {"CEA-EDF (Berriaud", SourceKind::kOwn},
     {"through the plug", SourceKind::kOwn},

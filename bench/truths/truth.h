@@ -42,8 +42,8 @@ struct Truth {
 };
 using Truths = std::vector<Truth>;
 
-/// Where a reference comes from. A formula that Sunder computes by itself, and what compares Sunder
-/// with itself, is no truth.
+/// Kind of the source of a reference. A formula that Sunder computes by itself is no truth, nor is
+/// a comparison of Sunder with itself (kOwn).
 enum class SourceKind : std::uint8_t { kClosedForm, kMeasured, kOtherEngine, kOwn };
 /// Returns the kind of the case's source.
 SourceKind source_kind(const Truth& truth);

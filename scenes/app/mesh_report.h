@@ -41,10 +41,10 @@ void add_doubled(const std::optional<fracture::DoubleCountedVolume>& double_coun
 /// Throws InputError unless `output` is empty or the name of a format that write_solids() writes.
 void check_output(const std::string& output);
 /// Writes solids as X.glb, X.png, or a folder of .obj files, with their origin at `origin`. Moves
-/// them apart by `explode` times
-/// their distance from the common middle; by default 0.3 for a picture and 0 otherwise. Marks of
-/// faces are indices into `appearances` plus one. Returns the number of pieces whose inner walls
-/// should be removed but are kept, as their surface would be open. Throws InputError.
+/// them apart by `explode` times their distance from the common middle; by default 0.3 for a
+/// picture and 0 otherwise. Marks of faces are indices into `appearances` plus one. Returns the
+/// number of pieces whose inner walls should be removed but are kept, as their surface would be
+/// open. Throws InputError.
 std::size_t write_solids(const std::string& output, const std::vector<Compound>& solids,
                          const std::vector<Material>& materials,
                          std::vector<Appearance> appearances, std::optional<double> explode,

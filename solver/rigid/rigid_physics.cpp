@@ -386,8 +386,7 @@ Momentum RigidPhysics::hold_to_limits() {
       slowed_ = true;
       continue;
     }
-    if (!bodies_.position[body].allFinite() || !bodies_.rotation[body].coeffs().allFinite())
-      bodies_.place(body, Vec3::Zero(), Quat::Identity());
+    if (!bodies_.has_finite_pose(body)) bodies_.place(body, Vec3::Zero(), Quat::Identity());
     taken.momentum_Ns += bodies_.freeze(body);
     ++frozen_;
   }

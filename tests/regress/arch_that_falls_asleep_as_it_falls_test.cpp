@@ -32,9 +32,7 @@ TEST(RegressSleep, BothHalvesOfAnArchFallAtWhateverStepItLosesItsKeystone) {
     const int first = static_cast<int>(std::lround(0.4 / preset.dt_s));
     const int last = static_cast<int>(std::lround(0.6 / preset.dt_s));
     for (int steps = first; steps <= last; steps += has_short_steps ? 4 : 1) {
-      RigidOptions options;
-      options.sweeps = preset.sweeps;
-      RigidWorld world(options);
+      RigidWorld world(options_of(preset));
       world.add(RigidWorld::ground());
       std::vector<BodyId> stones;
       for (int i = 0; i < kStones; ++i)

@@ -20,7 +20,8 @@ struct StruckWall {
   std::vector<double> masses_kg;
   double ball_Ns = 0;
 
-  explicit StruckWall(const Preset& preset, std::uint64_t seed) : world(options(preset)) {
+  explicit StruckWall(const Preset& preset, std::uint64_t seed)
+      : world(options_of(preset, awake())) {
     Random random(seed, 3);
     world.add(RigidWorld::fixed(
         RigidWorld::with_friction(RigidWorld::box(Vec3(40, 1, 40), Vec3(0, -0.5, 0)), kFriction)));
@@ -37,11 +38,6 @@ struct StruckWall {
     add(RigidWorld::moving(ball, Vec3(0, 0, -speed_m_s)));
   }
 
-  static RigidOptions options(const Preset& preset) {
-    RigidOptions options = awake();
-    options.sweeps = preset.sweeps;
-    return options;
-  }
   void add(const BodyDesc& body) {
     masses_kg.push_back(body.mass_kg);
     ids.push_back(world.add(RigidWorld::with_friction(body, kFriction)));

@@ -16,8 +16,7 @@ namespace {
 using W = RigidWorld;
 
 RigidOptions options_of(const Preset& preset, bool sleeping) {
-  RigidOptions options;
-  options.sweeps = preset.sweeps;
+  RigidOptions options = solver::options_of(preset);
   options.sleeping = sleeping;
   return options;
 }

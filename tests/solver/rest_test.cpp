@@ -13,12 +13,6 @@ namespace {
 
 using W = RigidWorld;
 
-RigidOptions options_of(const Preset& preset) {
-  RigidOptions options;
-  options.sweeps = preset.sweeps;
-  return options;
-}
-
 /// Adds a pile of 80 to 240 boxes, lumps or both, by the seed.
 std::vector<BodyId> add_pile(RigidWorld& world, std::uint64_t seed) {
   Random random(seed);

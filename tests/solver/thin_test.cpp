@@ -266,9 +266,7 @@ TEST(Thin, PlatesAndRodsThatAreBuriedComeOutAndRest) {
   for (const Preset& preset : kPresets) {
     for (const double width : {0.001, 0.5}) {
       for (const double tilt : {0., 0.01, 0.03}) {
-        RigidOptions options;
-        options.sweeps = preset.sweeps;
-        RigidWorld world(options);
+        RigidWorld world(options_of(preset));
         world.add(W::ground());
         BodyDesc sliver = W::box(Vec3(1, kThickness, width), Vec3(0, -kDepth, 0), 1000);
         sliver.X_WB.rotation = Quat(Eigen::AngleAxisd(tilt, Vec3(0, 0, 1)));

@@ -42,15 +42,19 @@ void write_triangles(TextWriter& out, const std::string& material,
   }
 }
 
+void write_points(TextWriter& out, const Model::Part& part, const Model::Shell& shell) {
+  for (const Vec3& vertex : shell.mesh->vertices) {
+    out << "v " << Vec3(vertex + part.offset) << "\n";
+  }
+}
+
 void write_part(const fs::path& file, const Model::Part& part, const Model& model) {
   TextWriter out;
   out << "mtllib " << kMaterials << "\no " << part.name << "\n";
   std::size_t first_point = 1, first_vertex = 1;
   for (const Model::Shell& shell : part.shells) {
     const ShellTriangles triangles = triangles_of(shell);
-    for (const Vec3& vertex : shell.mesh->vertices) {
-      out << "v " << Vec3(vertex + part.offset) << "\n";
-    }
+    write_points(out, part, shell);
     for (const ShellTriangles::Vertex& vertex : triangles.vertices) {
       out << "vt " << vertex.uv << "\nvn " << vertex.normal << "\n";
     }
@@ -77,7 +81,7 @@ void write_obj(const fs::path& file, const Model& model) {
     out << "o " << as_word(part.name) << "\n";
     for (const Model::Shell& shell : part.shells) {
       const PolygonMesh& mesh = *shell.mesh;
-      for (const Vec3& vertex : mesh.vertices) out << "v " << Vec3(vertex + part.offset) << "\n";
+      write_points(out, part, shell);
       for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (const Triangle& corners : triangulate(mesh, f)) {
           out << "f";

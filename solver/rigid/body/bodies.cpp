@@ -186,9 +186,13 @@ void Bodies::place(BodySlot body, const Vec3& position_W, const Quat& rotation_W
   rotation_f[body] = rotation[body].toRotationMatrix().cast<float>();
 }
 
+bool Bodies::has_finite_pose(BodySlot body) const {
+  return position[body].allFinite() && rotation[body].coeffs().allFinite();
+}
+
 bool Bodies::is_within_limits(BodySlot body) const {
-  return position[body].allFinite() && rotation[body].coeffs().allFinite() &&
-         largest(velocity[body]) <= ranges::kSpeed_m_s.high && velocity[body].allFinite() &&
+  return has_finite_pose(body) && largest(velocity[body]) <= ranges::kSpeed_m_s.high &&
+         velocity[body].allFinite() &&
          largest(angular_velocity[body]) <= ranges::kSpin_rad_s.high &&
          angular_velocity[body].allFinite();
 }
@@ -196,7 +200,7 @@ bool Bodies::is_within_limits(BodySlot body) const {
 std::optional<Momentum> Bodies::slow_down(BodySlot body) {
   constexpr double kMostSquarable = 1e150;
   Vec3 &v = velocity[body], &w = angular_velocity[body];
-  if (!position[body].allFinite() || !rotation[body].coeffs().allFinite()) return std::nullopt;
+  if (!has_finite_pose(body)) return std::nullopt;
   if (!v.allFinite() || !w.allFinite() || std::max(largest(v), largest(w)) > kMostSquarable)
     return std::nullopt;
   Momentum taken{0, mass_kg[body] * v, kinetic_J(body)};

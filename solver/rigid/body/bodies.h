@@ -107,6 +107,7 @@ struct Bodies {
   void remove(BodySlot body);
   /// Sets the pose and what is derived from it.
   void place(BodySlot body, const Vec3& position_W, const Quat& rotation_WB);
+  bool has_finite_pose(BodySlot body) const;
   /// True if the pose is finite, and the speeds are within the ranges of scenes.
   bool is_within_limits(BodySlot body) const;
   /// Slows a body down to the ranges of scenes, if it is finite; returns the momentum and energy
