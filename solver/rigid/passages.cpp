@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 
+#include "engine/base/disjoint_sets.h"
 #include "engine/base/parallel.h"
 #include "engine/base/rotation.h"
 #include "solver/rigid/body/motion.h"
@@ -213,19 +217,39 @@ bool is_fast(BodySlot body, const TakenPaths& paths, const Shapes& shapes) {
   return false;
 }
 
-/// Returns a body to an earlier part of its path, with the angular momentum that it has now and no
-/// more energy: it keeps its rotation if it would have more in every one near the earlier one.
-void return_to(double part, const TakenPath& path, BodySlot body, Bodies& bodies) {
-  const Pose then = path.at(part);
+/// Bodies that met, directly or through others, and all that joints hold to them.
+struct Group {
+  double part = 1;       ///< Earliest part of the step at which two of them met.
+  bool is_held = false;  ///< One met what does not move.
+  BodySlot carrier;      ///< A body that is moved and that one of them met, or none.
+  double mass_kg = 0;
+  Vec3 mass_way_kgm = Vec3::Zero();
+};
+
+/// Returns a body to an earlier rotation on its path, with the angular momentum that it has now and
+/// no more energy: it keeps its rotation if it would have more in every one near the earlier one.
+Quat turn_back(double part, const TakenPath& path, BodySlot body, Bodies& bodies) {
   const Mat3& inertia_B = bodies.inertia_B[body];
   const Vec3& w_W = bodies.angular_velocity[body];
   const Vec3 spin_W = path.end.rotation * (inertia_B * (path.end.rotation.conjugate() * w_W));
   const double energy_J = 0.5 * spin_W.dot(w_W), turn = path.turn_W.norm();
-  RotationState earlier = rotation_with_energy(inertia_B, then.rotation, spin_W, energy_J, turn);
+  RotationState earlier =
+      rotation_with_energy(inertia_B, path.at(part).rotation, spin_W, energy_J, turn);
   if (0.5 * spin_W.dot(earlier.w_W) > energy_J) earlier = {path.end.rotation, w_W};
   bodies.angular_velocity[body] = earlier.w_W;
   bodies.rotation_path_m[body] += 1.1 * 2 * turn * bodies.reach_m[body];
-  bodies.place(body, then.position, earlier.R_WB);
+  return earlier.R_WB;
+}
+
+/// Returns where a body of a group is at the end of the step that was there at `part`: the group
+/// stays, moves with its carrier, or goes on together.
+Vec3 carried(const Vec3& position, const Group& group, const TakenPaths& paths) {
+  if (group.is_held) return position;
+  if (group.carrier.none()) return position + (1 - group.part) / group.mass_kg * group.mass_way_kgm;
+  const TakenPath path = paths[group.carrier];
+  const Pose then = path.at(group.part);
+  return path.end.position +
+         path.end.rotation * (then.rotation.conjugate() * (position - then.position));
 }
 
 /// Stops two bodies in the direction in which they went into each other, as their contact did not,
@@ -273,33 +297,50 @@ Passages::PutBack Passages::put_back(const StepContext& step, const BroadPhase& 
           find_passages(fast[i], paths, broad_phase, strays, shapes, joints, found);
       });
   if (passages.empty()) return {};
-  // Bodies that met, and bodies in joints, return to the same time.
-  ByBody<double> part(bodies.size());
-  std::fill(part.begin(), part.end(), 1.);
+  DisjointSets sets(bodies.size());
+  ByBody<std::uint8_t> is_returned(bodies.size());
   std::vector<BodySlot> returned;
-  for (bool changed = true; std::exchange(changed, false);) {
-    const auto lower = [&](BodySlot body, double to) {
-      if (!bodies.awake(body) || part[body] <= to) return;
+  for (const Passage& passage : passages) {
+    for (const BodySlot body : {passage.a, passage.b}) {
+      if (!bodies.awake(body)) continue;
       for (const BodySlot joined : joints.joined_to(body, bodies)) {
-        if (part[joined] == 1) returned.push_back(joined);
-        part[joined] = std::min(part[joined], to);
+        if (!std::exchange(is_returned[joined], 1)) returned.push_back(joined);
+        sets.join(body.value, joined.value);
       }
-      changed = true;
-    };
-    for (const Passage& passage : passages) {
-      const double least = std::min({passage.part, part[passage.a], part[passage.b]});
-      lower(passage.a, least), lower(passage.b, least);
     }
+    if (bodies.awake(passage.a) && bodies.awake(passage.b))
+      sets.join(passage.a.value, passage.b.value);
+  }
+  std::map<std::size_t, Group> groups;
+  const auto group_of = [&](BodySlot body) -> Group& { return groups[sets.root(body.value)]; };
+  for (const BodySlot body : returned) {
+    Group& group = group_of(body);
+    group.mass_kg += bodies.mass_kg[body];
+    group.mass_way_kgm += bodies.mass_kg[body] * (bodies.position[body] - paths.position[body]);
   }
   PutBack all;
   all.bodies = returned.size();
-  for (const Passage& passage : passages)
+  for (const Passage& passage : passages) {
+    const bool a_awake = bodies.awake(passage.a);
+    Group& group = group_of(a_awake ? passage.a : passage.b);
+    group.part = std::min(group.part, passage.part);
+    const BodySlot other = a_awake ? passage.b : passage.a;
+    if (bodies.is_moving_kinematic(other))
+      group.carrier = other;
+    else if (!bodies.awake(other))
+      group.is_held = true;
     if (passage.part == 0) all.impulse_Ns += stop(passage, paths, bodies);
+  }
   for (const BodySlot body : returned) {
-    const Vec3 fall_m_s = (1 - part[body]) * step.dt_s * step.gravity_W;
-    bodies.velocity[body] -= fall_m_s;
-    all.impulse_Ns += bodies.mass_kg[body] * fall_m_s;
-    return_to(part[body], paths[body], body, bodies);
+    const Group& group = group_of(body);
+    if (group.is_held || !group.carrier.none()) {
+      const Vec3 fall_m_s = (1 - group.part) * step.dt_s * step.gravity_W;
+      bodies.velocity[body] -= fall_m_s;
+      all.impulse_Ns += bodies.mass_kg[body] * fall_m_s;
+    }
+    const TakenPath path = paths[body];
+    const Vec3 position_W = carried(path.at(group.part).position, group, paths);
+    bodies.place(body, position_W, turn_back(group.part, path, body, bodies));
     bodies.changed[body] = 1;
   }
   return all;

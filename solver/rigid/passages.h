@@ -13,10 +13,11 @@ namespace sunder::solver {
 
 /// Puts back what the contacts of a step did not stop: shapes that were apart from another, and
 /// whose centre went into it.
-/// Both bodies return to where they were before they met, with the momentum that they have less
-/// what gravity added since, their angular momentum and no more energy, and the next step finds
-/// their contact. Bodies whose contact did nothing in a whole step stop where they are, in the
-/// direction in which they went on.
+/// Both bodies return to where they were before they met, with their momentum, their angular
+/// momentum and no more energy, and the next step finds their contact. For the rest of the step
+/// they go on together, as their centre of mass did, or with a kinematic body that they met; beside
+/// what does not move they stay, without what gravity added to their velocity. Bodies whose contact
+/// did nothing in a whole step lose the speed at which they went into each other.
 class Passages {
  public:
   /// Keeps the poses at the start of a step.

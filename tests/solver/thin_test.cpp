@@ -224,6 +224,39 @@ TEST(Thin, HardlyAnyPlateOrBarPassesThroughAnother) {
 
 TEST(Thin, HardlyAnyPlateOrBarPassesThroughAWall) { expect_few(true, {3, 3, 2, 1}, {8, 8, 8, 4}); }
 
+TEST(Thin, TheCentreOfMassOfEachPairGoesOnStraight) {
+  constexpr double kTime_s = 0.15;
+  const Vec3 along_m_s(0, 0, 80);
+  for (const Preset& preset : kPresets) {
+    PresetWorld world(preset, Vec3(0, 0, 0));
+    Random random(1);
+    std::vector<std::array<BodyId, 2>> bodies;
+    std::vector<Vec3> ends;  // of the mean of each pair, weighted by volume
+    const auto mean = [](const Meeting& m, const Vec3& of_a, const Vec3& of_b) -> Vec3 {
+      const double a = m.a.size.prod(), b = m.b.size.prod();
+      return (a * of_a + b * of_b) / (a + b);
+    };
+    std::vector<Meeting> meetings;
+    for (int i = 0; i < 1000; ++i) {
+      Meeting m = meeting(random, Vec3(0, 20 * (i % 32), 20 * std::floor(i / 32.)), false);
+      BodyDesc &a = m.a.desc, &b = m.b.desc;
+      a.velocity_W += along_m_s, b.velocity_W += along_m_s;
+      const BodyId id_a = world.add(a), id_b = world.add(b);
+      bodies.push_back({id_a, id_b});
+      ends.push_back(mean(m, a.X_WB.position + kTime_s * a.velocity_W,
+                          b.X_WB.position + kTime_s * b.velocity_W));
+      meetings.push_back(m);
+    }
+    world.run(kTime_s);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const auto& [a, b] = bodies[i];
+      const Vec3 end =
+          mean(meetings[i], world.state(a).X_WB.position, world.state(b).X_WB.position);
+      EXPECT_LT((end - ends[i]).norm(), 2e-4) << preset.name << " " << i;
+    }
+  }
+}
+
 TEST(Thin, ARodLiesOnTheGroundAndRests) {
   constexpr double kLength = 2;
   for (const Preset& preset : kPresets) {
