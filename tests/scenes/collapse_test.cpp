@@ -120,7 +120,7 @@ struct RestChange {
 
 /// Returns the changes in a run. Expects bodies not to move while they are asleep.
 std::vector<RestChange> rest_changes(FrameSource& simulation) {
-  constexpr double kSize_m = 0.3;  // about that of a piece, for its rotation
+  constexpr double kDensity_kg_m3 = 1900;
   std::vector<RestChange> changes;
   std::map<std::uint64_t, FrameBody> before;
   while (const FramePtr frame = simulation.next()) {
@@ -130,8 +130,9 @@ std::vector<RestChange> rest_changes(FrameSource& simulation) {
       const auto known = before.find(body.key);
       if (known == before.end() || body.is_static) continue;
       const FrameBody& last = known->second;
+      const double size_m = std::cbrt(body.mass_kg / kDensity_kg_m3);
       const double moved_m = (body.X_WB.position - last.X_WB.position).norm() +
-                             kSize_m * body.X_WB.rotation.angularDistance(last.X_WB.rotation);
+                             size_m * body.X_WB.rotation.angularDistance(last.X_WB.rotation);
       if (body.asleep && last.asleep) {
         EXPECT_EQ(moved_m, 0) << body.key << " at " << frame->time_s << " s";
       }
@@ -153,7 +154,7 @@ TEST(Collapse, RubbleFallsAsleepAndWakesWithoutAJerk) {
     ASSERT_GT(woken_m.size(), 100u) << scene;
     std::ranges::sort(asleep_m);
     std::ranges::sort(woken_m);
-    EXPECT_LT(asleep_m.back(), 1.5e-3) << scene;
+    EXPECT_LT(asleep_m.back(), 1.3e-3) << scene;
     EXPECT_LT(woken_m[woken_m.size() * 80 / 100], kFall_m) << scene << ": others are struck";
   }
 }
