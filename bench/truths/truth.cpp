@@ -18,6 +18,10 @@ constexpr KnownSource kKnownSources[] = {
     {"SimBenchmark", SourceKind::kOtherEngine},
     {"Box2D", SourceKind::kOtherEngine},
     // The engine computes perforations by these formulas.
+    {"OpenCourant", SourceKind::kOtherEngine},
+    {"de la Bastie", SourceKind::kMeasured},
+    {"Børvik", SourceKind::kMeasured},
+    {"Bennett", SourceKind::kMeasured},
     {"Recht and Ipson 1963, CEA-EDF", SourceKind::kOwn},
     {"CEA-EDF (Berriaud", SourceKind::kOwn},
     {"through the plug", SourceKind::kOwn},
@@ -47,7 +51,8 @@ Truths all_truths() {
        {friction_truths, rolling_truths, impact_truths,  meeting_truths,     flight_truths,
         joint_truths,    stack_truths,   balance_truths, planar_truths,      grain_truths,
         silo_truths,     sphere_truths,  energy_truths,  break_truths,       load_truths,
-        blow_truths,     steel_truths,   through_truths, perforation_truths, blast_truths}) {
+        blow_truths,     steel_truths,   through_truths, perforation_truths, blast_truths,
+        wall_truths,     pane_truths,    drop_truths,    outside_truths}) {
     const Truths truths = list();
     all.insert(all.end(), truths.begin(), truths.end());
   }

@@ -82,6 +82,10 @@ Truths steel_truths();
 Truths through_truths();
 Truths perforation_truths();
 Truths blast_truths();
+Truths wall_truths();
+Truths pane_truths();
+Truths drop_truths();
+Truths outside_truths();
 
 /// Returns all cases of these lists, sorted by row; those whose source is our own are last.
 Truths all_truths();
