@@ -123,10 +123,9 @@ BreakEdit separate_plug(const Structure& structure, const BreakCommand& command)
 }
 
 /// Replaces the pattern by a plug if the striker drives one out of the solid.
-void add_plug(const Convex& convex, const Material& material, const StructureImpact& hit,
-              BreakCommand& command) {
+void add_plug(const Material& material, const StructureImpact& hit, BreakCommand& command) {
   Pose X_RP;
-  command.plug = make_plug(material, hit, axis_across(convex, hit.direction_R), X_RP);
+  command.plug = make_plug(material, hit, X_RP);
   if (!command.plug) return;
   command.X_RP = X_RP;
   const double widest_m = std::max(command.plug->reach_m, command.plug->section_reach_m());
@@ -161,7 +160,7 @@ class PatternBreaker final : public Breaker {
     }
     command.X_RP = {hit.point_R,
                     orientation(command.pattern.kind, convex, hit.direction_R, random)};
-    add_plug(convex, material, hit, command);
+    add_plug(material, hit, command);
     return command;
   }
 

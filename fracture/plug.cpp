@@ -99,12 +99,11 @@ double perforation_energy_J(const Material& material, double width_m, double thi
   return 0.5 * mass_kg * squared_m2_s2;
 }
 
-std::optional<Plug> make_plug(const Material& material, const StructureImpact& hit,
-                              const Vec3& axis_R, Pose& X_RP) {
+std::optional<Plug> make_plug(const Material& material, const StructureImpact& hit, Pose& X_RP) {
   Plug plug;
-  plug.depth_m = hit.thickness_m * hit.direction_R.dot(axis_R);
+  plug.depth_m = hit.thickness_m;
   if (hit.section_R.empty() || !hit.narrow || !(plug.depth_m > 0)) return {};
-  const Mat3 axes = axes_along(axis_R, hit.section_R[0] - hit.point_R);
+  const Mat3 axes = axes_along(hit.direction_R, hit.section_R[0] - hit.point_R);
   for (const Vec3& corner : hit.section_R) {
     const Vec3 at_P = axes.transpose() * (corner - hit.point_R);
     plug.section_m.emplace_back(at_P.x(), at_P.z());

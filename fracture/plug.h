@@ -14,13 +14,12 @@ namespace sunder::fracture {
 double perforation_energy_J(const Material& material, double width_m, double thickness_m,
                             double mass_kg);
 
-/// Returns the prism that an impact drives out along `axis_R`, and sets `X_RP` to the pose of the
-/// pattern's frame. It is a plug through the solid if the energy suffices to perforate it;
+/// Returns the prism that an impact drives out along its direction, and sets `X_RP` to the pose of
+/// the pattern's frame. It is a plug through the solid if the energy suffices to perforate it;
 /// otherwise a crater as deep as the thickness that the energy can perforate. Returns nullopt if
 /// the cross-section of the striker is unknown or wider than a break by pattern, or if the solid is
 /// so narrow that it breaks as a whole. A crater below the material's smallest break has an empty
 /// section: the striker dents the solid, and nothing comes off.
-std::optional<Plug> make_plug(const Material& material, const StructureImpact& hit,
-                              const Vec3& axis_R, Pose& X_RP);
+std::optional<Plug> make_plug(const Material& material, const StructureImpact& hit, Pose& X_RP);
 
 }  // namespace sunder::fracture

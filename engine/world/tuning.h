@@ -59,6 +59,9 @@ inline constexpr double kMaxStressBreakShare = 0.9;
 
 // Strikers that drive out a plug (decision 047).
 
+/// Cosine between the path of a striker and the normal of its contact, above which it goes through
+/// along its path; otherwise it glances.
+inline constexpr double kMinPathCosine = 0.5;
 /// Number of corners of the cross-section of a ball.
 inline constexpr int kRoundSectionCorners = 8;
 inline constexpr std::size_t kMaxSectionCorners = 8;  ///< Maximum corners of another cross-section.

@@ -351,6 +351,12 @@ std::vector<ImpactLoad> EventProbe::loads(const ClusterMotion& without) const {
     if (impulse * speed > most_flux[body]) {
       most_flux[body] = impulse * speed;
       load.striker = body == c.b ? c.a : c.b;
+      const auto at = [&](std::uint32_t of, const Vec3& arm_W) -> Vec3 {
+        const BodyVelocity& v = without.velocities[of];
+        return v.linear + v.angular.cross(arm_W);
+      };
+      load.path_m_s_W = at(c.a, c.arm_a_W) - at(c.b, c.arm_b_W);
+      if (body == c.a) load.path_m_s_W *= -1;
     }
     if (impulse <= most[body]) continue;
     most[body] = impulse;
@@ -366,6 +372,7 @@ std::vector<ImpactLoad> EventProbe::loads(const ClusterMotion& without) const {
   for (ImpactLoad& load : all) {
     load.arm_W /= load.impulse_Ns;
     load.direction_W.normalize();
+    load.time_s = time_s_;
     add_contact_impulses(load);
   }
   return all;

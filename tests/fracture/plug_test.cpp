@@ -69,12 +69,12 @@ TEST(Plug, goes_through_above_the_limit_and_as_deep_as_the_energy_lasts_below) {
       brick(), 2 * std::sqrt(4 * std::sin(0.25 * std::numbers::pi) / std::numbers::pi) * 0.4, 0.4,
       2091);
   const double limit_m_s = std::sqrt(2 * limit_J / 2091);
-  const auto above = make_plug(brick(), shot(1.01 * limit_m_s), Vec3::UnitZ(), X_RP);
+  const auto above = make_plug(brick(), shot(1.01 * limit_m_s), X_RP);
   ASSERT_TRUE(above);
   EXPECT_TRUE(above->through);
   EXPECT_NEAR(above->energy_J, limit_J, 1e-6 * limit_J);
   const StructureImpact weak = shot(0.5 * limit_m_s);
-  const auto below = make_plug(brick(), weak, Vec3::UnitZ(), X_RP);
+  const auto below = make_plug(brick(), weak, X_RP);
   ASSERT_TRUE(below);
   EXPECT_FALSE(below->through);
   EXPECT_LE(below->energy_J, weak.energy_J);
@@ -85,15 +85,15 @@ TEST(Plug, needs_a_solid_that_extends_around_it) {
   Pose X_RP;
   StructureImpact hit = shot(40);
   hit.confined = false;
-  EXPECT_FALSE(make_plug(brick(), hit, Vec3::UnitZ(), X_RP));
+  EXPECT_FALSE(make_plug(brick(), hit, X_RP));
   hit = shot(40);
   hit.volume_m3 = 0.5;
-  EXPECT_FALSE(make_plug(brick(), hit, Vec3::UnitZ(), X_RP));
+  EXPECT_FALSE(make_plug(brick(), hit, X_RP));
 }
 
 TEST(Plug, leaves_no_crater_that_is_smaller_than_the_smallest_break) {
   Pose X_RP;
-  const auto dent = make_plug(brick(), shot(0.1), Vec3::UnitZ(), X_RP);
+  const auto dent = make_plug(brick(), shot(0.1), X_RP);
   ASSERT_TRUE(dent);
   EXPECT_TRUE(dent->section_m.empty());
 }

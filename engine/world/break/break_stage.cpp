@@ -35,6 +35,8 @@ void add_impacts(const WorldState& world, Trial& trial) {
     planned.load = i;
     planned.striker = trial.probe->bodies()[load.striker].key;
     planned.speed_m_s = load.speed_m_s;
+    planned.path_m_s_W = load.path_m_s_W;
+    planned.time_s = load.time_s;
     planned.impulse_Ns = load.impulse_Ns;
     planned.by_pattern =
         breaks_where_struck(world, actor, load, world.actors.find(planned.striker));

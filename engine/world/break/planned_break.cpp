@@ -116,6 +116,15 @@ double reach_of(const StructureImpact& hit) {
   return reach_m;
 }
 
+/// Returns the direction in which the striker goes through the solid: that in which it comes, or
+/// the contact's if it glances.
+Vec3 path_of(const PlannedBreak& planned) {
+  const Vec3& path_m_s_W = planned.path_m_s_W;
+  const double along_m_s = path_m_s_W.dot(planned.impact.direction_W);
+  return along_m_s > kMinPathCosine * path_m_s_W.norm() ? Vec3(path_m_s_W.normalized())
+                                                        : planned.impact.direction_W;
+}
+
 /// Adds the striker's section, mass and speed to a hit, and the thickness of the actor behind it.
 void add_striker(const WorldState& world, const PlannedBreak& planned, const Actor& actor,
                  const Pose& X_WB, StructureImpact& hit) {
@@ -123,14 +132,16 @@ void add_striker(const WorldState& world, const PlannedBreak& planned, const Act
   const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   if (!striker || !breaks_before_waves_arrive(material, planned.speed_m_s)) return;
+  const Vec3 path_W = path_of(planned);
   const std::vector<Vec3> section_W =
-      cross_section(world, *striker, impact.point_W, impact.direction_W, material.impact_radius_m);
+      cross_section(world, *striker, impact.point_W, path_W, material.impact_radius_m);
   for (const Vec3& corner : section_W)
     hit.section_R.push_back(X_WB.inverse() * corner + actor.weight.com_R);
   if (hit.section_R.empty()) return;
   double widest_m = 0;
   for (const Vec3& a : hit.section_R)
     for (const Vec3& b : hit.section_R) widest_m = std::max(widest_m, (a - b).norm());
+  hit.direction_R = X_WB.rotation.conjugate() * path_W;
   hit.narrow = widest_m <= 2 * material.impact_radius_m;
   hit.speed_m_s = planned.speed_m_s;
   hit.striker_kg = planned.striker_kg();
@@ -142,9 +153,10 @@ void add_striker(const WorldState& world, const PlannedBreak& planned, const Act
     const Vec3 middle_R = actor.structure.convex(impact.convex)->solid.centroid;
     hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);
   }
-  const double depth_m = 0.5 * std::min(hit.thickness_m, reach_of(hit));
-  hit.confined =
-      confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kMinConfinement;
+  const double cosine = path_W.dot(impact.direction_W),
+               slope = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine;
+  hit.confined = confinement(actor.structure, hit.section_R, hit.direction_R, hit.thickness_m,
+                             slope) >= kMinConfinement;
 }
 
 /// Returns the volume of the convexes that reach into a sphere; of all if the radius is infinite.

@@ -52,6 +52,16 @@ bool is_in_prism(const SweptPrism& prism, const Vec3& com_R, double volume_m3) {
   return true;
 }
 
+/// Returns true if all convexes of a piece are in a plug. The centre of mass of what remains around
+/// a hole may be in the hole.
+bool is_within(const Plug& plug, const Pose& X_PR, const Actor& piece) {
+  bool within = true;
+  piece.structure.for_each([&](ConvexSlot, const Convex& convex) {
+    within = within && plug.contains(X_PR * convex.solid.centroid);
+  });
+  return within;
+}
+
 /// Returns the speed along an axis that a body gains at a point per impulse along the axis there.
 double inverse_effective_mass(const Actor& actor, const BodyState& state, const Vec3& point_W,
                               const Vec3& axis_W) {
@@ -59,6 +69,31 @@ double inverse_effective_mass(const Actor& actor, const BodyState& state, const 
   const Mat3 R_WB = state.X_WB.rotation.toRotationMatrix();
   const Vec3 turn_B = R_WB.transpose() * (point_W - state.X_WB.position).cross(axis_W);
   return 1 / actor.weight.mass_kg + turn_B.dot(actor.weight.inertia_R.inverse() * turn_B);
+}
+
+/// Turns the velocity of a striker relative to what remains of a solid into the direction of its
+/// path, as the sides of the hole guide it: an impulse between the two that changes no energy.
+/// `rest` is null for a held solid. Returns the change of kinetic energy, which is rounding.
+double keep_on_path(WorldState& world, const PlannedBreak& planned, const Actor& striker,
+                    const Actor* rest, const Vec3& path_W) {
+  BodyState by = world.physics->state(striker.body);
+  const Vec3 at_W = by.X_WB.position;
+  Vec3 relative_m_s = by.velocity_W;
+  if (rest) relative_m_s -= world.physics->state(rest->body).field()(at_W);
+  const Vec3 change_m_s = relative_m_s.norm() * path_W - relative_m_s;
+  if (change_m_s.isZero(0)) return 0;
+  const Vec3 along_W = change_m_s.normalized();
+  double inverse_kg = 1 / striker.weight.mass_kg;
+  if (rest)
+    inverse_kg += inverse_effective_mass(*rest, world.physics->state(rest->body), at_W, along_W);
+  const Vec3 impulse_Ns = 1 / inverse_kg * change_m_s;
+  // It is at the time of the impact where it would have been.
+  const auto push = [&](const Actor& actor, const Vec3& by_Ns) {
+    BodyState moved = world.physics->state(actor.body);
+    moved.X_WB.position -= planned.time_s / actor.weight.mass_kg * by_Ns;
+    return move_actor(world, actor, moved) + push_actor(world, actor, by_Ns, at_W);
+  };
+  return push(striker, impulse_Ns) + (rest ? push(*rest, -impulse_Ns) : 0);
 }
 
 /// Returns true if convexes that stay in place are in the prism that the striker sweeps.
@@ -125,14 +160,14 @@ double thickness_behind(const Structure& structure, const std::vector<Vec3>& sec
 }
 
 double confinement(const Structure& structure, const std::vector<Vec3>& section_R,
-                   const Vec3& direction_R, double depth_m) {
+                   const Vec3& direction_R, double thickness_m, double slope) {
   Vec3 middle_R = Vec3::Zero();
   for (const Vec3& corner : section_R) middle_R += corner / static_cast<double>(section_R.size());
   const auto is_filled = [&](const Vec3& corner) {
-    const Vec3 point_R = middle_R + kConfinementScale * (corner - middle_R) + depth_m * direction_R;
-    return std::ranges::any_of(structure.within(point_R, 0), [&](ConvexSlot slot) {
-      return distance_to(*structure.convex(slot), point_R) <= 0;
-    });
+    const Vec3 beside = kConfinementScale * (corner - middle_R);
+    const double shift_m = slope * beside.norm();  // an oblique path meets the face there or later
+    return thickness_along(structure, middle_R + beside - shift_m * direction_R, direction_R,
+                           thickness_m + shift_m) > 0;
   };
   return static_cast<double>(std::ranges::count_if(section_R, is_filled)) /
          static_cast<double>(section_R.size());
@@ -145,6 +180,7 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   const std::optional<Plug>& plug = planned.command.plug;
   const BodyStates states = world.physics->states();
   std::vector<const Actor*> pieces;
+  const Actor* rest = nullptr;  // the largest piece of a free solid beside the path
   double plug_kg = 0;
   Vec3 moment_kgm = Vec3::Zero();
   Vec3 axis_W = planned.impact.direction_W;
@@ -154,11 +190,12 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
       plug ? Vec3(planned.command.X_RP.rotation * Vec3::UnitY()) : planned.swept.direction_R;
   for (const Actor& actor : world.actors) {
     if (actor.key < first_key || actor.is_static) continue;
-    const Vec3& com_R = actor.weight.com_R;
     if (breaks_at_bonds && plug ? actor.structure.size() != 1
-        : plug                  ? !plug->contains(planned.command.X_RP.inverse() * com_R)
-                                : !is_in_prism(planned.swept, com_R, actor.volume_m3))
+        : plug                  ? !is_within(*plug, planned.command.X_RP.inverse(), actor)
+               : !is_in_prism(planned.swept, actor.weight.com_R, actor.volume_m3)) {
+      if (!rest || rest->weight.mass_kg < actor.weight.mass_kg) rest = &actor;
       continue;
+    }
     pieces.push_back(&actor);
     plug_kg += actor.weight.mass_kg;
     moment_kgm += actor.weight.mass_kg * states[actor.body].X_WB.position;
@@ -184,8 +221,11 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
     moved.velocity_W += gain_m_s * axis_W;
     gain_J += move_actor(world, *piece, moved);
   }
-  if (!striker->is_kinematic)
+  if (!striker->is_kinematic) {
     gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, middle_W);
+    if (plug && (is_held || rest))
+      gain_J += keep_on_path(world, planned, *striker, is_held ? nullptr : rest, axis_W);
+  }
   const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
   EnergyFlows& energy = world.log.report.energy;
   energy.debris += debris_J;
