@@ -117,7 +117,7 @@ double reach_of(const StructureImpact& hit) {
 }
 
 /// Returns the direction in which the striker goes through the solid: that in which it comes, or
-/// the contact's if it glances.
+/// the contact's normal if it glances.
 Vec3 path_of(const PlannedBreak& planned) {
   const Vec3& path_m_s_W = planned.path_m_s_W;
   const double along_m_s = path_m_s_W.dot(planned.impact.direction_W);
@@ -125,14 +125,14 @@ Vec3 path_of(const PlannedBreak& planned) {
                                                         : planned.impact.direction_W;
 }
 
-/// Adds the striker's section, mass and speed to a hit, and the thickness of the actor behind it.
+/// Adds the striker's section, mass and speed to a hit, and the thickness of the actor along a
+/// path.
 void add_striker(const WorldState& world, const PlannedBreak& planned, const Actor& actor,
-                 const Pose& X_WB, StructureImpact& hit) {
+                 const Pose& X_WB, const Vec3& path_W, StructureImpact& hit) {
   const Actor* striker = world.actors.find(planned.striker);
   const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   if (!striker || !breaks_before_waves_arrive(material, planned.speed_m_s)) return;
-  const Vec3 path_W = path_of(planned);
   const std::vector<Vec3> section_W =
       cross_section(world, *striker, impact.point_W, path_W, material.impact_radius_m);
   for (const Vec3& corner : section_W)
@@ -153,10 +153,9 @@ void add_striker(const WorldState& world, const PlannedBreak& planned, const Act
     const Vec3 middle_R = actor.structure.convex(impact.convex)->solid.centroid;
     hit.thickness_m = 2 * thickness_along(actor.structure, middle_R, hit.direction_R, most_m);
   }
-  const double cosine = path_W.dot(impact.direction_W),
-               slope = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine;
-  hit.confined = confinement(actor.structure, hit.section_R, hit.direction_R, hit.thickness_m,
-                             slope) >= kMinConfinement;
+  const double depth_m = 0.5 * std::min(hit.thickness_m, reach_of(hit));
+  hit.confined =
+      confinement(actor.structure, hit.section_R, hit.direction_R, depth_m) >= kMinConfinement;
 }
 
 /// Returns the volume of the convexes that reach into a sphere; of all if the radius is infinite.
@@ -171,9 +170,9 @@ double volume_within(const Structure& structure, const Vec3& center_R, double ra
   return volume_m3;
 }
 
-/// Returns the impact in the actor's rest frame.
+/// Returns the impact in the actor's rest frame, with a striker that goes along a path.
 StructureImpact hit_of(const WorldState& world, const PlannedBreak& planned, const Actor& actor,
-                       const Pose& X_WB) {
+                       const Pose& X_WB, const Vec3& path_W) {
   const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   StructureImpact hit;
@@ -183,7 +182,7 @@ StructureImpact hit_of(const WorldState& world, const PlannedBreak& planned, con
   hit.energy_J = impact.energy_J;
   hit.volume_m3 = actor.volume_m3;
   hit.reached_m3 = volume_within(actor.structure, hit.point_R, material.impact_radius_m);
-  add_striker(world, planned, actor, X_WB, hit);
+  add_striker(world, planned, actor, X_WB, path_W, hit);
   return hit;
 }
 
@@ -230,12 +229,25 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
                      PlannedBreak& planned) {
   const ActorImpact& impact = planned.impact;
   const Actor& actor = *world.actors.find(impact.key);
-  StructureImpact hit = hit_of(world, planned, actor, world.physics->state(actor.body).X_WB);
+  const Pose X_WB = world.physics->state(actor.body).X_WB;
+  StructureImpact hit = hit_of(world, planned, actor, X_WB, impact.direction_W);
   // The seed depends on the actor alone: a repeated impact breaks it the same way, so that an
   // impact over several steps gets no several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
+  const auto goes_through = [](const BreakCommand& command) {
+    return command.plug && command.plug->through;
+  };
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
+  // What drives a plug out of a face goes along its own path; at an edge it pushes along the
+  // contact's normal.
+  if (const Vec3 path_W = path_of(planned);
+      goes_through(planned.command) && path_W != impact.direction_W) {
+    StructureImpact oblique = hit_of(world, planned, actor, X_WB, path_W);
+    oblique.confined = hit.confined;
+    BreakCommand command = breaker.command(convex, *world.materials, oblique, event, seed);
+    if (goes_through(command)) hit = std::move(oblique), planned.command = std::move(command);
+  }
   if (impact.pattern) {
     planned.command.pattern = *impact.pattern;
     planned.command.plug.reset();

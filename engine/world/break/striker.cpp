@@ -160,14 +160,14 @@ double thickness_behind(const Structure& structure, const std::vector<Vec3>& sec
 }
 
 double confinement(const Structure& structure, const std::vector<Vec3>& section_R,
-                   const Vec3& direction_R, double thickness_m, double slope) {
+                   const Vec3& direction_R, double depth_m) {
   Vec3 middle_R = Vec3::Zero();
   for (const Vec3& corner : section_R) middle_R += corner / static_cast<double>(section_R.size());
   const auto is_filled = [&](const Vec3& corner) {
-    const Vec3 beside = kConfinementScale * (corner - middle_R);
-    const double shift_m = slope * beside.norm();  // an oblique path meets the face there or later
-    return thickness_along(structure, middle_R + beside - shift_m * direction_R, direction_R,
-                           thickness_m + shift_m) > 0;
+    const Vec3 point_R = middle_R + kConfinementScale * (corner - middle_R) + depth_m * direction_R;
+    return std::ranges::any_of(structure.within(point_R, 0), [&](ConvexSlot slot) {
+      return distance_to(*structure.convex(slot), point_R) <= 0;
+    });
   };
   return static_cast<double>(std::ranges::count_if(section_R, is_filled)) /
          static_cast<double>(section_R.size());

@@ -22,11 +22,11 @@ std::vector<Vec3> cross_section(const WorldState& world, const Actor& actor, con
 double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,
                         const Vec3& point_R, const Vec3& direction_R, double most_m);
 
-/// Returns the share of rays around a section, at 1.5 times its width, that meet a structure within
-/// a thickness; `slope` is the tangent of the angle between the direction and the normal of the
-/// struck face. A solid with little material around the section cannot be perforated.
+/// Returns the share of points around a section, at 1.5 times its width and `depth_m` behind it, at
+/// which a structure has material. A solid with little material around the section cannot be
+/// perforated.
 double confinement(const Structure& structure, const std::vector<Vec3>& section_R,
-                   const Vec3& direction_R, double thickness_m, double slope);
+                   const Vec3& direction_R, double depth_m);
 
 /// Gives a fast striker and the pieces that it has broken out of its path one common speed: a
 /// plastic collision, which conserves momentum (Recht and Ipson 1963). Debris takes its share of
