@@ -47,7 +47,7 @@ class Examples(unittest.TestCase):
                 self.assertEqual(sum(line.startswith("f ") for line in lines), piece["triangles"])
 
     def test_sweep_a_parameter(self):
-        run("sweep.py", "-o", self.folder, "--speeds", "5,20", "--seeds", 3)
+        run("sweep.py", "-o", self.folder, "--speeds", "5,20", "--seeds", 6)
         with open(self.folder / "sweep.csv", newline="", encoding="ascii") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([float(row["speed_m_s"]) for row in rows], [5, 20])

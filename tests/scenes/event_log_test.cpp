@@ -20,13 +20,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A wall on the ground that a ball breaks, whose pieces come to rest.
+/// A wall on the ground that a ball breaks, whose pieces come to rest, and one that falls on them.
 constexpr const char* kScene =
     "[scene]\ndescription = \"A wall.\"\nduration_s = 4\n"
     "[[solid]]\nname = \"the wall\"\nstructure = \"box\"\nsize_m = [2, 1, 0.2]\n"
     "material = \"brick\"\n"
     "[[ball]]\nname = \"the ball\"\nposition = [0, 0.5, -2]\nvelocity = [0, 0, 30]\n"
-    "radius_m = 0.2\nmaterial = \"steel\"\n";
+    "radius_m = 0.2\nmaterial = \"steel\"\n"
+    "[[ball]]\nposition = [0.5, 35, 0]\nradius_m = 0.2\nmaterial = \"steel\"\n";
 
 std::string text_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);

@@ -82,10 +82,10 @@ double keep_on_path(WorldState& world, const PlannedBreak& planned, const Actor&
   if (rest) relative_m_s -= world.physics->state(rest->body).field()(at_W);
   const Vec3 change_m_s = relative_m_s.norm() * path_W - relative_m_s;
   if (change_m_s.isZero(0)) return 0;
-  const Vec3 along_W = change_m_s.normalized();
+  const Vec3 turn_W = change_m_s.normalized();
   double inverse_kg = 1 / striker.weight.mass_kg;
   if (rest)
-    inverse_kg += inverse_effective_mass(*rest, world.physics->state(rest->body), at_W, along_W);
+    inverse_kg += inverse_effective_mass(*rest, world.physics->state(rest->body), at_W, turn_W);
   const Vec3 impulse_Ns = 1 / inverse_kg * change_m_s;
   // It is at the time of the impact where it would have been.
   const auto push = [&](const Actor& actor, const Vec3& by_Ns) {
