@@ -15,7 +15,8 @@ struct Thing {
   const char* material;
   Vec3 size;
   double compressive_Pa, tensile_Pa, youngs_Pa, density_kg_m3, toughness_J_m2;
-  bool lies = false;  ///< It is thin, and lands flat: it bends before it is crushed.
+  bool lies =
+      false;  ///< True if the thing is thin and lands flat, so that it bends before it is crushed.
 };
 const Thing kBrick = {"clay", Vec3(0.24, 0.071, 0.115), 2e7, 2e6, 1e10, 1900, 60};
 const Thing kPaver = {"concrete", Vec3(0.2, 0.08, 0.1), 3e7, 3e6, 3e10, 2400, 100};
@@ -67,7 +68,7 @@ Measure least_height(const Thing& thing) {
   };
 }
 
-/// Number of heights, of five from 0.05 to 100 m, from which less breaks than from a lower one.
+/// Number of heights, of five from 1 to 100 m, from which less breaks than from a lower one.
 Measure falling(const Thing& thing) {
   return [&thing](const Preset& preset) {
     double most = 0;

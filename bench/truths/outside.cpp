@@ -30,9 +30,7 @@ std::string ram(double kg, double speed_m_s) {
 /// Returns a wall of concrete of 0.2 m.
 std::string wall(double width_m, double height_m, double block_m, bool is_free) {
   return box("wall", Vec3(width_m, height_m, 0.2), Vec3(0, is_free ? 1 - 0.5 * height_m : 0, 0),
-             "concrete",
-             (block_m > 0 ? "block_m = " + std::to_string(block_m) + "\n" : "") +
-                 (is_free ? "" : "anchored = \"bottom\"\n"));
+             "concrete", blocks(block_m) + (is_free ? "" : "anchored = \"bottom\"\n"));
 }
 
 /// Share of a wall, anchored at its foot, that stands after a ram of 1 t at 2 m/s.
@@ -50,16 +48,19 @@ double pushed_over(const Preset& preset) {
   return most;
 }
 
-double ram_exit(double kg, double speed_m_s, double width_m, double height_m, bool is_free,
-                const Preset& preset, double low, double high) {
-  double worst = 0;
-  for (const double block_m : {0., 0.2}) {
-    const std::string scene = wall(width_m, height_m, block_m, is_free) + ram(kg, speed_m_s);
-    const double exit = exit_m_s(scene, "ram", kForwards, 0.2 + kg / 3120, 0.4, preset);
-    const double error = outside(exit, low, high);
-    if (std::abs(error) > std::abs(worst)) worst = error;
-  }
-  return worst;
+/// Exit speed of a ram at 40 m/s, off the range that codes found.
+Measure ram_at_40(double kg, double width_m, double height_m, bool is_free, double low,
+                  double high) {
+  return [=](const Preset& preset) {
+    double worst = 0;
+    for (const double block_m : {0., 0.2}) {
+      const std::string scene = wall(width_m, height_m, block_m, is_free) + ram(kg, 40);
+      const double exit = exit_m_s(scene, "ram", kForwards, 0.2 + kg / 3120, 0.4, preset);
+      const double error = outside(exit, low, high);
+      if (std::abs(error) > std::abs(worst)) worst = error;
+    }
+    return worst;
+  };
 }
 
 /// Returns a wall in running bond whose bricks are joined by mortar, as one solid.
@@ -69,20 +70,19 @@ std::string mortared_wall() {
                "tensile_Pa = 3e5\nshear_Pa = 4e5\nfriction = 0.75\n"
                "toughness_J_m2 = 10") +
       "[[solid]]\nname = \"wall\"\nstructure = \"compound\"\nanchored = \"bottom\"\n";
-  const auto row = [&](double x, double y, double length, int count, bool odd) {
+  const auto repeat = [](int count, const char* step_m) {
+    return "[[solid.part.repeat]]\ncount = " + std::to_string(count) + "\nstep_m = " + step_m +
+           "\n";
+  };
+  // Each brick is repeated along its course, and in every second course above.
+  const auto add = [&](double x, double y, double length, const std::string& along, int courses) {
     text += "[[solid.part]]\nstructure = \"box\"\nmaterial = \"unit\"\nsize_m = [" +
             std::to_string(length) + ", 0.1, 0.1]\nposition = [" + std::to_string(x) + ", " +
-            std::to_string(y) + ", 0]\n";
-    if (count > 1)
-      text += "[[solid.part.repeat]]\ncount = " + std::to_string(count) + "\nstep_m = [" +
-              std::to_string(odd ? 1.9 : 0.2) + ", 0, 0]\n";
-    if (count > 1 || odd)
-      text += "[[solid.part.repeat]]\ncount = " + std::to_string(odd ? 7 : 8) +
-              "\nstep_m = [0, 0.2, 0]\n";
+            std::to_string(y) + ", 0]\n" + along + repeat(courses, "[0, 0.2, 0]");
   };
-  row(-0.9, 0, 0.2, 10, false);  // courses 0, 2, …
-  row(-0.8, 0.1, 0.2, 9, false);
-  row(-0.95, 0.1, 0.1, 2, true);
+  add(-0.9, 0, 0.2, repeat(10, "[0.2, 0, 0]"), 8);
+  add(-0.8, 0.1, 0.2, repeat(9, "[0.2, 0, 0]"), 8);
+  add(-0.95, 0.1, 0.1, repeat(2, "[1.9, 0, 0]"), 7);
   return text;
 }
 
@@ -137,8 +137,8 @@ double steel_plate(const Preset& preset) {
   return worst;
 }
 
-/// Least speed of three storeys that fall 3 m onto two, in the second after they meet, off that of
-/// a perfectly plastic impact on the storey below.
+/// Least mean speed of all that falls, when three storeys that have fallen 3 m meet two, off that
+/// of a plastic impact on the storey below.
 double storeys(const Preset& preset) {
   const auto storey = [](double y) {
     std::string text;
@@ -155,18 +155,15 @@ double storeys(const Preset& preset) {
       "[[solid]]\nname = \"below\"\nstructure = \"compound\"\nanchored = \"bottom\"\n" + storey(0) +
       storey(3) + "[[solid]]\nname = \"above\"\nstructure = \"compound\"\n" +
       velocity(Vec3(0, -kSpeed, 0)) + storey(6.1) + storey(9.1) + storey(12.1);
-  double time_s = 0, least = kSpeed, before = 0;
-  // The speed is that of all that falls: the momentum of what does not stand, over its mass.
+  double least = kSpeed;
   strike(scene, 1.2, preset, [&](const Strike& now) {
-    time_s = now.frame().time_s;
+    const double time_s = now.frame().time_s;
     double momentum = 0, mass = 0;
     for (const FrameBody& body : now.frame().bodies) {
       if (body.is_static || body.X_WB.position.y() < 6) continue;
       momentum += body.mass_kg * -body.velocity_W.y(), mass += body.mass_kg;
     }
-    const double speed = mass > 0 ? momentum / mass : before;
-    if (time_s > 0.05 && time_s < 0.4) least = std::min(least, speed);
-    before = speed;
+    if (time_s > 0.05 && time_s < 0.4 && mass > 0) least = std::min(least, momentum / mass);
     return time_s < 0.4;
   });
   const double plastic = kSpeed * 3 / 4;
@@ -177,19 +174,13 @@ double storeys(const Preset& preset) {
 
 Truths outside_truths() {
   const char* codes = "OpenCourant and other codes, 2026";
-  const auto at_40 = [](double kg, double width, double height, bool is_free, double low,
-                        double high) {
-    return [=](const Preset& preset) {
-      return ram_exit(kg, 40, width, height, is_free, preset, low, high);
-    };
-  };
   return {
       truth(52, "ram of 1 t at 2 m/s at a wall of concrete: share that stands", "", codes, 0.2,
             pushed_over, {1, 1, 1, 1}),
       truth(52, "ram of 1 t at 40 m/s through a wall of concrete: exit speed", "", codes, 0.15,
-            at_40(1000, 2, 2, false, 33.6, 36), {0.15, 0.15, 0.15, 0.15}),
+            ram_at_40(1000, 2, 2, false, 33.6, 36), {0.15, 0.15, 0.15, 0.15}),
       truth(52, "ram of 0.2 t at 40 m/s through a free wall of 0.53 t: exit speed", "", codes, 0.15,
-            at_40(200, 1.1, 1, true, 35, 35), {0.56, 0.61, 0.6, 0.61}),
+            ram_at_40(200, 1.1, 1, true, 35, 35), {0.56, 0.61, 0.6, 0.61}),
       truth(52, "ball of 30 kg at 15 m/s through bricks in mortar: exit speed", "", codes, 0.15,
             mortar, {0.52, 0.52, 0.52, 0.52}),
       truth(53, "timber at 15, 25 and 30 m/s at a veneer of brick: shots that come through", "",

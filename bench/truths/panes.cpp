@@ -11,7 +11,7 @@
 namespace sunder::truths {
 namespace {
 
-/// What a strike does, at a speed.
+/// Damage to a target, and the speed of the ball behind it.
 struct Damage {
   double cracks_m2 = 0, behind_m_s = 0;
 };
@@ -29,12 +29,12 @@ double falling(const std::vector<Damage>& damages) {
   return above > 0 ? static_cast<double>(less) / above : 1;
 }
 
-/// A ball along −z onto what stands at the origin, which it meets at a height.
+/// Shoots a ball along −z at a target at the origin, at a height.
 Damage shoot(const std::string& target, double radius_m, double height_m, double front_z,
-             double speed_m_s, const Preset& preset, double seconds = 0.5) {
+             double speed_m_s, const Preset& preset) {
   const Vec3 from(0.03, height_m, front_z + radius_m + 0.02 + 0.004 * speed_m_s);
   Damage damage;
-  strike(target + ball("shot", radius_m, from, Vec3(0, 0, -speed_m_s)), seconds, preset,
+  strike(target + ball("shot", radius_m, from, Vec3(0, 0, -speed_m_s)), 0.5, preset,
          [&](const Strike& now) {
            damage.cracks_m2 = now.cracks_m2();
            const FrameBody* shot = now.find("shot");
@@ -47,11 +47,14 @@ Damage shoot(const std::string& target, double radius_m, double height_m, double
 
 const std::vector<double> kSpeeds = {1, 3, 4.5, 6, 10, 20, 40, 80, 160};
 
+std::string pane_of(double thickness_m) {
+  return "[[solid]]\nstructure = \"pane\"\nthickness_m = " + std::to_string(thickness_m) + "\n";
+}
+
 Measure panes(double thickness_m, bool is_held) {
   return [=](const Preset& preset) {
     const std::string pane =
-        "[[solid]]\nstructure = \"pane\"\nthickness_m = " + std::to_string(thickness_m) + "\n" +
-        (is_held ? "" : "frame_m = 0\nanchored = \"none\"\n");
+        pane_of(thickness_m) + (is_held ? "" : "frame_m = 0\nanchored = \"none\"\n");
     std::vector<Damage> damages;
     for (const double speed : kSpeeds)
       damages.push_back(shoot(pane, 0.03, 1.05, 0.5 * thickness_m, speed, preset));
@@ -63,11 +66,10 @@ Measure panes(double thickness_m, bool is_held) {
 double behind_panes(const Preset& preset) {
   double most = 0;
   for (const double thickness_m : {0.004, 0.01, 0.02}) {
-    const std::string pane =
-        "[[solid]]\nstructure = \"pane\"\nthickness_m = " + std::to_string(thickness_m) + "\n";
     double before_m_s = 0;
     for (const double speed : kSpeeds) {
-      const double behind = shoot(pane, 0.03, 1.05, 0.5 * thickness_m, speed, preset).behind_m_s;
+      const double behind =
+          shoot(pane_of(thickness_m), 0.03, 1.05, 0.5 * thickness_m, speed, preset).behind_m_s;
       most = std::max(most, (before_m_s - behind) / speed);
       before_m_s = std::max(before_m_s, behind);
     }

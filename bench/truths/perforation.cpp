@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "bench/truths/truth.h"
+#include "bench/truths/strikes.h"
 #include "scenes/load.h"
 #include "scenes/make_simulation.h"
 #include "tests/fixtures/standing.h"
@@ -29,9 +29,7 @@ struct Outcome {
   double standing = 1;  ///< Least volume fraction of the plate that is still anchored.
 };
 
-double ball_kg(const Shot& shot) {
-  return 7800 * 4 / 3. * std::numbers::pi * std::pow(shot.radius_m, 3);
-}
+double ball_kg(const Shot& shot) { return steel_ball_kg(shot.radius_m); }
 
 /// Limit speed by CEA-EDF (Berriaud et al. 1978), with the factor of UKAEA (Barr 1990) for
 /// reinforcement.
@@ -54,18 +52,17 @@ Outcome simulate_shot(const Shot& shot, const Preset& preset, int seed) {
   const double gap_m = std::max(0.02, 0.002 * shot.speed_m_s);
   const double path_m = 2 * gap_m + 2 * shot.thickness_m + 4 * shot.radius_m;
   const double duration_s = std::min(1.0, 0.1 + 8 * path_m / shot.speed_m_s);
-  const std::string block =
-      shot.block_m > 0 ? "block_m = " + std::to_string(shot.block_m) + "\n" : "";
   const std::string text =
       "[scene]\ndescription = \"A shot.\"\nduration_s = " + std::to_string(duration_s) +
       "\nseed = " + std::to_string(seed) +
       "\n[limits]\ndust = 0\n[[solid]]\nstructure = \"box\"\nanchored = \"bottom\"\nmaterial = \"" +
       shot.material + "\"\nsize_m = [" + std::to_string(shot.width_m) + ", " +
-      std::to_string(shot.height_m) + ", " + std::to_string(shot.thickness_m) + "]\n" + block +
-      "[[ball]]\nposition = [" + std::to_string(0.003 * seed * shot.width_m) + ", " +
-      std::to_string(0.5 * shot.height_m) + ", " +
-      std::to_string(shot.radius_m + 0.5 * shot.thickness_m + gap_m) + "]\nvelocity = [0, 0, " +
-      std::to_string(-shot.speed_m_s) + "]\nradius_m = " + std::to_string(shot.radius_m) + "\n";
+      std::to_string(shot.height_m) + ", " + std::to_string(shot.thickness_m) + "]\n" +
+      blocks(shot.block_m) + "[[ball]]\nposition = [" +
+      std::to_string(0.003 * seed * shot.width_m) + ", " + std::to_string(0.5 * shot.height_m) +
+      ", " + std::to_string(shot.radius_m + 0.5 * shot.thickness_m + gap_m) +
+      "]\nvelocity = [0, 0, " + std::to_string(-shot.speed_m_s) +
+      "]\nradius_m = " + std::to_string(shot.radius_m) + "\n";
   Scene scene = scenes::parse_scene(text, "shot.toml", {preset.name, {}});
   const std::size_t ball = scene.solids.size();
   const auto simulation = scenes::make_simulation(std::move(scene));

@@ -41,6 +41,10 @@ std::string material(const std::string& name, const std::string& like, const std
 
 std::string velocity(const Vec3& velocity) { return "velocity = " + text(velocity) + "\n"; }
 
+std::string blocks(double block_m) {
+  return block_m > 0 ? "block_m = " + std::to_string(block_m) + "\n" : "";
+}
+
 double steel_ball_kg(double radius_m) { return 7800 * 4 / 3. * kPi * std::pow(radius_m, 3); }
 
 const FrameBody* Strike::find(const std::string& name) const {

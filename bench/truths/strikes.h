@@ -13,17 +13,19 @@
 
 namespace sunder::truths {
 
-/// A table of the scene file: a box of `material` whose foot has its middle at `foot`; `more` has
-/// further keys, one a line.
+/// Returns the table of a box in a scene file. `foot` is the middle of its foot, `more` has further
+/// lines.
 std::string box(const std::string& name, const Vec3& size, const Vec3& foot,
                 const std::string& material, const std::string& more = "");
-/// A table: a ball of steel.
+/// Returns the table of a ball of steel.
 std::string ball(const std::string& name, double radius_m, const Vec3& center,
                  const Vec3& velocity);
-/// A table: a material like another.
+/// Returns the table of a material like another.
 std::string material(const std::string& name, const std::string& like, const std::string& more);
-/// A line of a box: its velocity.
+/// Returns the line of a table that gives a velocity.
 std::string velocity(const Vec3& velocity);
+/// Returns the line of a table that gives the longest edge of blocks; empty for 0, one block.
+std::string blocks(double block_m);
 
 /// Returns the mass of a ball of steel.
 double steel_ball_kg(double radius_m);
@@ -56,26 +58,26 @@ void strike(const std::string& tables, double seconds, const Preset& preset,
 double exit_m_s(const std::string& tables, const std::string& name, const Vec3& way,
                 double distance_m, double seconds, const Preset& preset);
 
-/// A plate that is struck: brick unless told otherwise. A free one has mass.
+/// Plate that is struck, of brick by default.
 struct Plate {
   double thickness_m;
   double compressive_Pa = 8e6, density_kg_m3 = 1900, reinforcement_percent = 0;
-  double free_kg = 1e30;  ///< Mass that may move at the place struck; for an anchored plate none.
+  double free_kg = 1e30;  ///< Effective mass of a free plate at the place struck.
 };
-/// What a plate leaves of a striker.
+/// Motion of a striker behind a plate.
 struct Passed {
   double speed_m_s;
   double plug_kg;  ///< Mass that goes on with it.
 };
-/// Returns what theory leaves of a striker: shearing out a plug of its section takes the work that
-/// makes CEA-EDF's limit speed (Berriaud et al. 1978) that of a striker of twice the plug's mass;
-/// the plug goes on with the striker (Recht and Ipson 1963), and a free plate with what is left.
-/// None if it does not pass.
+/// Returns the motion of a striker behind a plate by theory; none if the striker does not pass. The
+/// work that shears out a plug of the striker's section is that of CEA-EDF's limit speed (Berriaud
+/// et al. 1978) for a striker of twice the plug's mass. The plug goes on with the striker (Recht
+/// and Ipson 1963), and the rest of a free plate takes its share of the momentum.
 std::optional<Passed> passed(double striker_kg, double speed_m_s, double width_m,
                              const Plate& plate);
 
-/// Returns the k-th of the phases of a step at which things meet: a part of a frame, so that many
-/// phases are spread evenly in it, and in each part of it.
+/// Returns the k-th phase of an impact, as a fraction of a frame. Phases by the golden ratio are
+/// spread evenly in a frame, and in each step of it.
 inline double phase(int k) {
   return k * 0.618033988749895 - static_cast<int>(k * 0.618033988749895);
 }

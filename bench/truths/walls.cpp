@@ -23,10 +23,6 @@ double share_off(const Errors& errors, double most = 0.1) {
   return static_cast<double>(off) / static_cast<double>(errors.size());
 }
 
-std::string blocks(double block_m) {
-  return block_m > 0 ? "block_m = " + std::to_string(block_m) + "\n" : "";
-}
-
 /// Returns a wall of brick with its middle at 1.5 m of height, its front at `front_z`.
 std::string wall(const std::string& name, const Vec3& size, double front_z, double block_m,
                  bool is_free = false) {
@@ -42,7 +38,7 @@ struct Flying {
 
   Vec3 way() const { return Vec3(std::sin(angle), 0, -std::cos(angle)); }
   double kg() const { return steel_ball_kg(radius_m); }
-  /// Its table; it meets z = 0 at x after 0.02 s and a phase of a frame.
+  /// Returns the table of the ball, which meets z = 0 at x after 0.02 s and a phase of a frame.
   std::string at(double x, double phase, const std::string& name = "shot") const {
     const double before_m = radius_m / std::cos(angle) + speed_m_s * (0.02 + phase / 60);
     return ball(name, radius_m, Vec3(x, 1.5, 0) - before_m * way(), speed_m_s * way());
@@ -144,7 +140,7 @@ double two_strikers(const Preset& preset) {
   return share_off(errors);
 }
 
-/// Boxes of steel, of the section of the ball, that stand loose before a wall of 0.25 m: what the
+/// Unbreakable boxes of the section of the ball that are loose before a wall of 0.25 m: what the
 /// ball drives on strikes the wall together with it.
 struct Loose {
   int boxes;

@@ -103,9 +103,9 @@ struct ImpactLoad {
   /// momentum flux (impulse × speed) of each contact.
   double speed_m_s = 0;
   std::uint32_t striker = 0;  ///< Index of the other body at the largest momentum flux.
-  /// Velocity of the striker relative to the body there, if the body were not in the way.
+  /// Velocity of the striker relative to the body at that contact, if the body were not in the way.
   Vec3 path_m_s_W = Vec3::Zero();
-  double time_s = 0;  ///< Since the start of the step.
+  double time_s = 0;  ///< Time of the impact since the start of the step.
   /// All simultaneous impulses on the body, supports included.
   std::vector<ProbeImpulse> impulses = {};
 };

@@ -59,8 +59,8 @@ inline constexpr double kMaxStressBreakShare = 0.9;
 
 // Strikers that drive out a plug (decision 047).
 
-/// Cosine between the path of a striker and the normal of its contact, above which it goes through
-/// along its path; otherwise it glances.
+/// Minimum cosine between a striker's relative velocity and the contact normal for a path along
+/// that velocity; other strikers glance.
 inline constexpr double kMinPathCosine = 0.5;
 /// Number of corners of the cross-section of a ball.
 inline constexpr int kRoundSectionCorners = 8;

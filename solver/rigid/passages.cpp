@@ -220,8 +220,8 @@ bool is_fast(BodySlot body, const TakenPaths& paths, const Shapes& shapes) {
 /// Bodies that met, directly or through others, and all that joints hold to them.
 struct Group {
   double part = 1;       ///< Earliest part of the step at which two of them met.
-  bool is_held = false;  ///< One met what does not move.
-  BodySlot carrier;      ///< A body that is moved and that one of them met, or none.
+  bool is_held = false;  ///< True if one of them met a body that does not move.
+  BodySlot carrier;      ///< Kinematic body that one of them met; none() if there is none.
   double mass_kg = 0;
   Vec3 mass_way_kgm = Vec3::Zero();
 };
@@ -241,8 +241,8 @@ Quat turn_back(double part, const TakenPath& path, BodySlot body, Bodies& bodies
   return earlier.R_WB;
 }
 
-/// Returns where a body of a group is at the end of the step that was there at `part`: the group
-/// stays, moves with its carrier, or goes on together.
+/// Returns the position at the end of the step of a body of a group, from that at the group's part:
+/// the group stays, moves with its carrier, or goes on with its centre of mass.
 Vec3 carried(const Vec3& position, const Group& group, const TakenPaths& paths) {
   if (group.is_held) return position;
   if (group.carrier.none()) return position + (1 - group.part) / group.mass_kg * group.mass_way_kgm;

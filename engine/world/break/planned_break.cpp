@@ -116,8 +116,8 @@ double reach_of(const StructureImpact& hit) {
   return reach_m;
 }
 
-/// Returns the direction in which the striker goes through the solid: that in which it comes, or
-/// the contact's normal if it glances.
+/// Returns the direction of a striker's path through the solid: that of its relative velocity, or
+/// the contact normal if the striker glances.
 Vec3 path_of(const PlannedBreak& planned) {
   const Vec3& path_m_s_W = planned.path_m_s_W;
   const double along_m_s = path_m_s_W.dot(planned.impact.direction_W);
@@ -170,9 +170,9 @@ double volume_within(const Structure& structure, const Vec3& center_R, double ra
   return volume_m3;
 }
 
-/// Returns the impact in the actor's rest frame, with a striker that goes along a path.
+/// Returns the impact in the actor's rest frame, with a striker that goes along the contact normal.
 StructureImpact hit_of(const WorldState& world, const PlannedBreak& planned, const Actor& actor,
-                       const Pose& X_WB, const Vec3& path_W) {
+                       const Pose& X_WB) {
   const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   StructureImpact hit;
@@ -182,7 +182,7 @@ StructureImpact hit_of(const WorldState& world, const PlannedBreak& planned, con
   hit.energy_J = impact.energy_J;
   hit.volume_m3 = actor.volume_m3;
   hit.reached_m3 = volume_within(actor.structure, hit.point_R, material.impact_radius_m);
-  add_striker(world, planned, actor, X_WB, path_W, hit);
+  add_striker(world, planned, actor, X_WB, impact.direction_W, hit);
   return hit;
 }
 
@@ -230,7 +230,7 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
   const ActorImpact& impact = planned.impact;
   const Actor& actor = *world.actors.find(impact.key);
   const Pose X_WB = world.physics->state(actor.body).X_WB;
-  StructureImpact hit = hit_of(world, planned, actor, X_WB, impact.direction_W);
+  StructureImpact hit = hit_of(world, planned, actor, X_WB);
   // The seed depends on the actor alone: a repeated impact breaks it the same way, so that an
   // impact over several steps gets no several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
@@ -239,11 +239,13 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
     return command.plug && command.plug->through;
   };
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
-  // What drives a plug out of a face goes along its own path; at an edge it pushes along the
-  // contact's normal.
+  // A striker that drives a plug out of a face goes along its own path. At an edge, where no plug
+  // comes out along the contact normal, the striker pushes along that normal.
   if (const Vec3 path_W = path_of(planned);
       goes_through(planned.command) && path_W != impact.direction_W) {
-    StructureImpact oblique = hit_of(world, planned, actor, X_WB, path_W);
+    StructureImpact oblique = hit;
+    oblique.section_R.clear();
+    add_striker(world, planned, actor, X_WB, path_W, oblique);
     oblique.confined = hit.confined;
     BreakCommand command = breaker.command(convex, *world.materials, oblique, event, seed);
     if (goes_through(command)) hit = std::move(oblique), planned.command = std::move(command);

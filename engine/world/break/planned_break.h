@@ -32,7 +32,7 @@ struct PlannedBreak {
   std::uint32_t striker = kNoActorKey;  ///< Key of the body that strikes.
   double speed_m_s = 0;                 ///< Closing speed of the striker; 0: unknown.
   Vec3 path_m_s_W = Vec3::Zero();       ///< Velocity of the striker relative to the actor.
-  double time_s = 0;                    ///< Of the impact, since the start of the step.
+  double time_s = 0;                    ///< Time of the impact since the start of the step.
   double impulse_Ns = 0;                ///< Sum over the contacts that load the actor.
   std::vector<AppliedForce> impulses;   ///< All impulses on the actor, N·s in place of N.
   double transmitted_J = 0;             ///< Upper bound of the energy that reaches the rest of the

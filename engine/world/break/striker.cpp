@@ -52,8 +52,8 @@ bool is_in_prism(const SweptPrism& prism, const Vec3& com_R, double volume_m3) {
   return true;
 }
 
-/// Returns true if all convexes of a piece are in a plug. The centre of mass of what remains around
-/// a hole may be in the hole.
+/// Returns true if all convexes of a piece are in a plug. The centre of mass alone does not tell:
+/// that of a plate with a hole may be in the hole.
 bool is_within(const Plug& plug, const Pose& X_PR, const Actor& piece) {
   bool within = true;
   piece.structure.for_each([&](ConvexSlot, const Convex& convex) {
@@ -71,23 +71,23 @@ double inverse_effective_mass(const Actor& actor, const BodyState& state, const 
   return 1 / actor.weight.mass_kg + turn_B.dot(actor.weight.inertia_R.inverse() * turn_B);
 }
 
-/// Turns the velocity of a striker relative to what remains of a solid into the direction of its
-/// path, as the sides of the hole guide it: an impulse between the two that changes no energy.
-/// `rest` is null for a held solid. Returns the change of kinetic energy, which is rounding.
+/// Turns the velocity of a striker relative to the rest of a solid into the direction of the path,
+/// as the sides of the hole guide the striker, by an impulse between the two that changes no
+/// energy. `rest` is null for a held solid. Returns the change of kinetic energy, which is
+/// rounding.
 double keep_on_path(WorldState& world, const PlannedBreak& planned, const Actor& striker,
                     const Actor* rest, const Vec3& path_W) {
-  BodyState by = world.physics->state(striker.body);
-  const Vec3 at_W = by.X_WB.position;
-  Vec3 relative_m_s = by.velocity_W;
-  if (rest) relative_m_s -= world.physics->state(rest->body).field()(at_W);
+  const BodyStates states = world.physics->states();
+  const Vec3 at_W = states[striker.body].X_WB.position;
+  Vec3 relative_m_s = states[striker.body].velocity_W;
+  if (rest) relative_m_s -= states[rest->body].field()(at_W);
   const Vec3 change_m_s = relative_m_s.norm() * path_W - relative_m_s;
   if (change_m_s.isZero(0)) return 0;
-  const Vec3 turn_W = change_m_s.normalized();
   double inverse_kg = 1 / striker.weight.mass_kg;
   if (rest)
-    inverse_kg += inverse_effective_mass(*rest, world.physics->state(rest->body), at_W, turn_W);
+    inverse_kg += inverse_effective_mass(*rest, states[rest->body], at_W, change_m_s.normalized());
   const Vec3 impulse_Ns = 1 / inverse_kg * change_m_s;
-  // It is at the time of the impact where it would have been.
+  // The shift keeps the position that the body has at the time of the impact.
   const auto push = [&](const Actor& actor, const Vec3& by_Ns) {
     BodyState moved = world.physics->state(actor.body);
     moved.X_WB.position -= planned.time_s / actor.weight.mass_kg * by_Ns;
@@ -188,11 +188,14 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   const bool breaks_at_bonds = planned.command.pattern.kind == PatternSpec::Kind::kNone;
   const Vec3 axis_R =
       plug ? Vec3(planned.command.X_RP.rotation * Vec3::UnitY()) : planned.swept.direction_R;
+  const auto is_in_path = [&](const Actor& piece) {
+    if (!plug) return is_in_prism(planned.swept, piece.weight.com_R, piece.volume_m3);
+    if (breaks_at_bonds) return piece.structure.size() == 1;
+    return is_within(*plug, planned.command.X_RP.inverse(), piece);
+  };
   for (const Actor& actor : world.actors) {
     if (actor.key < first_key || actor.is_static) continue;
-    if (breaks_at_bonds && plug ? actor.structure.size() != 1
-        : plug                  ? !is_within(*plug, planned.command.X_RP.inverse(), actor)
-               : !is_in_prism(planned.swept, actor.weight.com_R, actor.volume_m3)) {
+    if (!is_in_path(actor)) {
       if (!rest || rest->weight.mass_kg < actor.weight.mass_kg) rest = &actor;
       continue;
     }
