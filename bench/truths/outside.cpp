@@ -81,7 +81,7 @@ std::string mortared_wall() {
             std::to_string(y) + ", 0]\n" + along + repeat(courses, "[0, 0.2, 0]");
   };
   add(-0.9, 0, 0.2, repeat(10, "[0.2, 0, 0]"), 8);
-  add(-0.8, 0.1, 0.2, repeat(9, "[0.2, 0, 0]"), 8);
+  add(-0.8, 0.1, 0.2, repeat(9, "[0.2, 0, 0]"), 7);
   add(-0.95, 0.1, 0.1, repeat(2, "[1.9, 0, 0]"), 7);
   return text;
 }
