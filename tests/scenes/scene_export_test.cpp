@@ -372,8 +372,10 @@ TEST_F(SceneExport, IsWrittenToADevice) {
 TEST_F(SceneExport, StoppedByASignalHasTheFramesSoFar) {
   const std::string glb = folder_ / "x.glb";
   const std::string scene = fs::path(recording()).replace_extension(".toml").string();
-  const Outcome outcome = sunder("export " + scene + " --set scene.duration_s=500 -o " + glb,
-                                 "timeout --signal=INT 3 ");
+  const Outcome outcome =
+      sunder("export " + scene +
+                 " --set scene.duration_s=500 --set accuracy.dt_s=1.6666666666666667e-5 -o " + glb,
+             "timeout --signal=INT 3 ");
   EXPECT_NE(outcome.out.find("stopped; wrote the frames so far"), std::string::npos)
       << outcome.out << outcome.err;
   EXPECT_TRUE(bytes_of(glb).starts_with("glTF"));
