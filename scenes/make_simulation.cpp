@@ -136,8 +136,8 @@ std::vector<std::string> warnings_of(const Scene& scene) {
   const std::string accuracy = accuracy_warning(scene, kMaxSubsteps);
   for (const std::string& warning :
        {accuracy.empty() ? crush_warning(scene, kMaxSubsteps) : accuracy, post_warning(scene),
-        long_step_warning(scene), short_step_warning(scene), far_warning(scene),
-        placement_warning(scene), obsolete_warning(scene)}) {
+        long_step_warning(scene), far_warning(scene), placement_warning(scene),
+        obsolete_warning(scene)}) {
     if (!warning.empty()) warnings.push_back(warning);
   }
   warnings.insert(warnings.end(), scene.warnings.begin(), scene.warnings.end());

@@ -244,21 +244,6 @@ TEST(MakeSimulation, WarnsOfAStepThatIsLongerThanAFrame) {
   EXPECT_TRUE(has_warning(scene, {"0.1 s", "longer than a frame", "accuracy.dt_s"}));
 }
 
-TEST(MakeSimulation, WarnsOfAStepInWhichStrikersLoseSpeedInTheirHoles) {
-  const auto at = [](const char* material, double dt_s) {
-    Scene scene = parse_scene(std::string(kHead) +
-                                  "[[solid]]\nstructure = \"box\"\nsize_m = [1, 1, 1]\n"
-                                  "material = \"" +
-                                  material + "\"\n",
-                              "x.toml");
-    scene.accuracy.dt_s = dt_s;
-    return scene;
-  };
-  EXPECT_TRUE(has_warning(at("brick", 1.0 / 1920), {"0.0005208 s", "hole", "1/960"}));
-  EXPECT_FALSE(has_warning(at("brick", 1.0 / 960), {"hole"}));
-  EXPECT_FALSE(has_warning(at("steel", 1.0 / 1920), {"hole"}));
-}
-
 TEST(MakeSimulation, WarnsOfBodiesTooFarFromTheOriginForDebris) {
   const auto ball_at = [](const char* x) {
     return parse_scene(

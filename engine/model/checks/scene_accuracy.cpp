@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kSinkFactor = 1.55;  // penetration over load·g·h²; measured (docs/decisions/027)
 constexpr double kTouchDistance = 0.02;  // distance over a body's size within which bodies touch
-// Longest step in which strikers lose speed in their holes; measured.
-constexpr double kShortStep_s = 1.001e-3;
 // least height difference of centres, over the smaller size, of bodies on each other
 constexpr double kMinHeightDifference = 0.25;
 // Buckling limits of a chain of blocks on rotational springs (docs/decisions/027), of size/N² in
@@ -169,21 +167,6 @@ std::string long_step_warning(const Scene& scene) {
       "dt_s = %.4g s is longer than a frame (1/60 s) and than the step of any preset: stacks may "
       "collapse, and bodies penetrate each other; set accuracy.dt_s to 1/60 or less",
       dt_s);
-  return text;
-}
-
-std::string short_step_warning(const Scene& scene) {
-  const double dt_s = scene.accuracy.dt_s;
-  const bool breaks = std::ranges::any_of(scene.solids, [&](const Solid& solid) {
-    return scene.materials[solid.compound.convexes[0]->material.value].breakable();
-  });
-  if (!breaks || dt_s > kShortStep_s) return {};
-  char text[300];
-  std::snprintf(text, sizeof text,
-                "dt_s = %.4g s is so short that what a striker drives out of a wall rubs along the "
-                "hole, which takes up to a quarter of the striker's speed that longer steps leave "
-                "it; set accuracy.dt_s to 1/960 or more",
-                dt_s);
   return text;
 }
 

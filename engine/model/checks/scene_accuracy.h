@@ -42,9 +42,6 @@ Accuracy divide_step(Accuracy accuracy, int all, int max_substeps);
 
 /// Returns a warning about a step longer than scene files allow; empty if there is none.
 std::string long_step_warning(const Scene& scene);
-/// Returns a warning about a step in which strikers lose too much speed in the holes that they
-/// make; empty if there is none.
-std::string short_step_warning(const Scene& scene);
 /// Returns a warning about bodies too far from the origin for the precision of debris and
 /// recordings; empty if there are none.
 std::string far_warning(const Scene& scene);
