@@ -76,7 +76,7 @@ Quat orientation(PatternSpec::Kind kind, const Convex& convex, const Vec3& direc
   }
 }
 
-/// Returns the share of a convex, given in the pattern's frame, that lies in the prism of a plug.
+/// Returns the share of a convex, given in the pattern's frame, that lies in the hole of a plug.
 double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   const double volume_m3 = mass_properties(part_P).volume_m3;
   ConvexPolyhedron cut;
@@ -89,7 +89,9 @@ double share_in(const Plug& plug, ConvexPolyhedron part_P) {
   };
   const std::vector<Vec2>& section = plug.section_m;
   for (std::size_t i = 0; i < section.size(); ++i)
-    if (!keep(plane_parallel_to_y(section[i], section[(i + 1) % section.size()]))) return 0;
+    if (!keep(plane_parallel_to_y(plug.clearance * section[i],
+                                  plug.clearance * section[(i + 1) % section.size()])))
+      return 0;
   if (!plug.through && !keep(Plane::through(Vec3(0, plug.depth_m, 0), Vec3::UnitY()))) return 0;
   return mass_properties(part_P).volume_m3 / volume_m3;
 }
@@ -122,13 +124,24 @@ BreakEdit separate_plug(const Structure& structure, const BreakCommand& command)
   return separate_islands(compound, slots, cut, {});
 }
 
+/// Marks the pieces that lie between a plug and its hole.
+void mark_crushed(const BreakCommand& command, BreakPlan& plan) {
+  const Pose X_PR = command.X_RP.inverse();
+  for (const Compound& piece : plan.pieces) {
+    plan.crushed.push_back(std::ranges::all_of(piece.convexes, [&](const ConvexPtr& convex) {
+      return command.plug->crushes(X_PR * convex->solid.centroid);
+    }));
+  }
+}
+
 /// Replaces the pattern by a plug if the striker drives one out of the solid.
 void add_plug(const Material& material, const StructureImpact& hit, BreakCommand& command) {
   Pose X_RP;
   command.plug = make_plug(material, hit, X_RP);
   if (!command.plug) return;
   command.X_RP = X_RP;
-  const double widest_m = std::max(command.plug->reach_m, command.plug->section_reach_m());
+  const double widest_m =
+      std::max(command.plug->reach_m, command.plug->clearance * command.plug->section_reach_m());
   command.radius_m = kPlugSphereScale * hypotenuse(widest_m, command.plug->depth_m);
 }
 
@@ -172,6 +185,7 @@ class PatternBreaker final : public Breaker {
     const PreparedBreak ready = prepare_break(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
                                      command.event, command.fit);
+    if (command.plug) mark_crushed(command, edit.loose);
     if (log_ && edit.loose.failed > 0) {
       log_->keep(structure.compound(), command);
     }

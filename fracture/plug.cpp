@@ -123,9 +123,8 @@ std::optional<Plug> make_plug(const Material& material, const StructureImpact& h
   if (plug.through ? !confined : !hit.held) return {};
   if (!plug.through && !become_crater(hit, width_m, area_m2, plug)) return {};
   plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
-  if (plug.through)
-    for (Vec2& corner : plug.section_m) corner *= kHoleClearance;
-  plug.sides_m2 = perimeter_m(plug.section_m) * plug.depth_m;
+  if (plug.through) plug.clearance = kHoleClearance;
+  plug.sides_m2 = plug.clearance * perimeter_m(plug.section_m) * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);
   if (!plug.through) {  // A crater is one piece; several would jam in it.
     if (smaller_m3 < material.min_breakable_volume_m3()) plug.section_m.clear();

@@ -188,7 +188,7 @@ Truths wall_truths() {
       truth(46, "the same at 20°: share off by a tenth", "", oblique, 0,
             exit_at(20 * kDegree, 35.9), {0, 0, 0, 0}),
       truth(46, "the same at 30°: share off by a tenth", "", oblique, 0,
-            exit_at(30 * kDegree, 34.7), {0.37, 0.55, 0.55, 1}),
+            exit_at(30 * kDegree, 34.7), {0, 0, 0, 0}),
       truth(46, "the same at 45°: share off by 15 %", "", oblique, 0,
             exit_at(45 * kDegree, 30.6, 0.15), {1, 1, 1, 1}),
       truth(46, "the same at 5° and 25°, by phase of the step and size of blocks: spread", "",

@@ -83,14 +83,20 @@ struct Plug {
   double solid_m = 0;  ///< Thickness of the solid.
   double sides_m2 = 0;  ///< Area of the prism's lateral surface.
 
+  /// Width of the hole over that of the section. What is between the two is crushed.
+  double clearance = 1;
+
   /// Returns the distance from the axis to the farthest corner of the section.
   double section_reach_m() const;
   /// True if a point, in the pattern's frame, is in the prism, or beyond its ends if `through`.
   bool contains(const Vec3& point_P) const;
+  /// True if a point is in the hole beside the prism.
+  bool crushes(const Vec3& point_P) const;
   /// Returns the approximate number of cells of the prism and its rings.
   int cell_count() const {
     const int slices = slice_m > 0 ? 1 + static_cast<int>(depth_m / slice_m) : 1;
-    return slices * (1 + static_cast<int>(section_m.size()) * (rings + (split ? 1 : 0)));
+    return slices * (1 + static_cast<int>(section_m.size()) *
+                             (rings + (split ? 1 : 0) + (clearance > 1 ? 1 : 0)));
   }
 };
 
@@ -126,6 +132,8 @@ struct ExposedFace {
 /// The pieces of a broken compound. Each is one island; their volumes sum to the compound's.
 struct BreakPlan {
   std::vector<Compound> pieces;
+  /// Per piece, unless empty: true if the piece was crushed, so that it is debris of any size.
+  std::vector<bool> crushed;
   double new_area_m2 = 0;  ///< Crack area; the two sides of a crack count once.
   std::vector<ExposedFace> exposed;
   /// Volume of parts that are too small for pieces and became debris.

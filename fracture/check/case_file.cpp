@@ -261,6 +261,7 @@ void write_plug(Writer& out, const Plug& plug) {
   out.put(plug.split ? 1 : 0);
   out.put(plug.rings);
   out.put(plug.reach_m);
+  out.put(plug.clearance);
 }
 
 void write_command(Writer& out, const BreakCommand& command) {
@@ -306,12 +307,14 @@ std::optional<Plug> read_plug(Reader& in, std::istream& stream) {
   plug.split = in.integer(1) != 0;
   plug.rings = static_cast<int>(in.integer(100));
   plug.reach_m = in.number();
+  stream >> std::ws;
+  if (!stream.eof()) plug.clearance = in.number();  // files of earlier versions have none
   if (plug.section_m.empty()) return {};
   const bool is_finite = std::ranges::all_of(
       plug.section_m, [](const Vec2& corner) { return corner.allFinite() && !corner.isZero(0); });
   if (plug.section_m.size() < 3 || !is_finite || !(plug.depth_m > 0) || !(plug.slice_m >= 0) ||
       !(plug.depth_m < kMostSlices * plug.slice_m || plug.slice_m == 0) ||
-      !std::isfinite(plug.reach_m))
+      !std::isfinite(plug.reach_m) || !(plug.clearance >= 1 && plug.clearance < 2))
     in.fail("the section or the depth of the plug is invalid");
   return plug;
 }

@@ -23,10 +23,13 @@ std::vector<std::vector<Vec2>> place_rings(const Plug& plug, double unit_m, Rand
   };
   if (plug.split) add(kPlugCoreScale, 0);
   add(1, 0);
-  const double widest = std::max(1.0, plug.reach_m / plug.section_reach_m());
-  double inner = 1;
+  if (plug.clearance > 1) add(plug.clearance, 0);
+  const double reach = plug.reach_m / plug.section_reach_m();
+  const double widest = std::max(1.0, reach / plug.clearance);
+  double inner = plug.clearance;
   for (int ring = 1; ring <= plug.rings; ++ring) {
-    const double outer = positive_power(widest, static_cast<double>(ring) / plug.rings);
+    const double outer =
+        plug.clearance * positive_power(widest, static_cast<double>(ring) / plug.rings);
     add(outer, kPlugRingJitter * (outer - inner));
     inner = outer;
   }

@@ -62,10 +62,12 @@ TEST(CaseFile, keeps_a_plug) {
   written.command.radius_m = 0.8;
   written.command.plug = Plug{
       {Vec2(.4, 0), Vec2(.1, .35), Vec2(-.3, .2), Vec2(-.2, -.3)}, 0.3, true, 0.2, true, 1, 0.6};
+  written.command.plug->clearance = 1.1;
   std::stringstream file;
   write_case(file, written);
   const BreakCase read = read_case(file, "a.case");
   ASSERT_TRUE(read.command.plug);
+  EXPECT_EQ(read.command.plug->clearance, 1.1);
   EXPECT_EQ(read.command.plug->section_m, written.command.plug->section_m);
   const BreakPlan again = break_compound(read.compound, read.command);
   EXPECT_TRUE(again.broke());

@@ -121,6 +121,35 @@ TEST(Plug, leaves_a_hole_and_keeps_the_volume) {
   }
 }
 
+TEST(Plug, has_the_section_of_the_striker_and_a_crushed_ring_around_it) {
+  const std::vector<Material> materials{brick()};
+  const auto breaker = make_pattern_breaker();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed, 78);
+    const double thickness_m = random.uniform(0.1, 0.3), radius_m = random.uniform(0.2, 0.5);
+    const Compound wall = box_compound(Vec3(-3, -1.5, 0), Vec3(3, 1.5, thickness_m));
+    StructureImpact hit = shot(100, radius_m, thickness_m);
+    const Vec3 tilt(random.uniform(-.3, .3), random.uniform(-.3, .3), 1);
+    hit.direction_R = tilt.normalized();
+    hit.thickness_m = thickness_m / hit.direction_R.z();
+    const BreakCommand command = breaker->command(*wall.convexes[0], materials, hit, seed, seed);
+    ASSERT_TRUE(command.plug && command.plug->through);
+    const BreakEdit edit = breaker->plan(Structure(wall), command);
+    ASSERT_EQ(edit.loose.crushed.size(), edit.loose.pieces.size());
+    const Pose X_PR = command.X_RP.inverse();
+    double plug_m3 = 0, crushed_m3 = 0;
+    for (std::size_t i = 0; i < edit.loose.pieces.size(); ++i) {
+      const Compound& piece = edit.loose.pieces[i];
+      if (edit.loose.crushed[i]) crushed_m3 += volume(piece);
+      if (command.plug->contains(X_PR * piece.convexes[0]->solid.centroid))
+        plug_m3 += volume(piece);
+    }
+    const double clearance = command.plug->clearance;
+    EXPECT_NEAR(plug_m3, command.plug->mass_kg / brick().density_kg_m3, 0.01 * plug_m3) << seed;
+    EXPECT_NEAR(crushed_m3 / plug_m3, clearance * clearance - 1, 0.01) << seed;
+  }
+}
+
 TEST(Plug, without_a_pattern_takes_the_convexes_in_its_path) {
   Material chunks = brick();
   chunks.pattern.kind = PatternSpec::Kind::kNone;

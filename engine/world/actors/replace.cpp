@@ -188,7 +188,9 @@ void edit_remaining_body(WorldState& world, Actor& actor, const BreakEdit& edit,
 
 std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit) {
   const bool stays = structure.size() + edit.added.size() > edit.removed.size();
-  return static_cast<std::uint32_t>(edit.loose.pieces.size()) + (stays ? 1 : 0);
+  const auto crushed = std::ranges::count(edit.loose.crushed, true);
+  return static_cast<std::uint32_t>(edit.loose.pieces.size() - static_cast<std::size_t>(crushed)) +
+         (stays ? 1 : 0);
 }
 
 bool fits_body_limit(const WorldState& world, const BreakEdit& edit, std::size_t pieces_planned) {
@@ -237,7 +239,13 @@ std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, Bre
     });
     keys[0] = pieces.add(world, rest, is_hinged(edit, 0), parent, motion, is_freed);
   }
-  for (const Compound& piece : edit.loose.pieces) {
+  for (std::size_t i = 0; i < edit.loose.pieces.size(); ++i) {
+    const Compound& piece = edit.loose.pieces[i];
+    if (!edit.loose.crushed.empty() && edit.loose.crushed[i]) {
+      note_chip(world, piece, motion);
+      keys.push_back(kNoActorKey);
+      continue;
+    }
     const auto number = static_cast<std::uint32_t>(keys.size());
     keys.push_back(pieces.add(world, piece, is_hinged(edit, number), parent, motion));
   }

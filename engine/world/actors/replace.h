@@ -9,7 +9,8 @@
 
 namespace sunder {
 
-/// Returns the number of pieces after an edit of a structure, the remaining structure included.
+/// Returns the number of pieces after an edit of a structure, crushed ones excluded, the remaining
+/// structure included.
 std::uint32_t pieces_after(const Structure& structure, const BreakEdit& edit);
 
 /// Returns true if the limit of bodies allows the pieces of an edit, with `pieces_planned` other
@@ -22,8 +23,8 @@ BreakEvent make_break_event(const WorldState& world, const Actor& actor, Materia
 
 /// Breaks the actor `key`. If it is still anchored, it stays without the pieces; otherwise it is
 /// replaced by its pieces, the remaining structure first. Pieces keep the parent's velocity field,
-/// which conserves linear and angular momentum; the smallest become debris. Returns the keys of the
-/// pieces that are bodies, `key` first if the actor stays.
+/// which conserves linear and angular momentum; the smallest and the crushed become debris. Returns
+/// the keys of the pieces that are bodies, `key` first if the actor stays.
 std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, BreakEdit& edit);
 
 }  // namespace sunder
