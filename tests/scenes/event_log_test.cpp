@@ -83,7 +83,7 @@ TEST(EventLog, LeadsFromTheFirstFrameToTheBodiesOfTheLast) {
       EXPECT_TRUE(time_s == 0 || children.contains(body)) << body << " comes from a break";
     } else if (kind == "break") {
       ++broken;
-      EXPECT_GT(event.at("energy_J"), 0);
+      EXPECT_GE(event.at("energy_J"), broken == 1 ? 1 : 0);  // 0: by load at rest
       EXPECT_EQ(event.at("name"), "the wall");
       EXPECT_EQ(event.at("material"), "brick");
       EXPECT_GE(event.at("pieces"), event.at("children").size());
