@@ -185,7 +185,7 @@ class PatternBreaker final : public Breaker {
     const PreparedBreak ready = prepare_break(command, whole ? bounds(structure) : Box(), library_);
     BreakEdit edit = break_structure(structure, *ready.pattern, ready.placement, ready.sphere,
                                      command.event, command.fit);
-    if (command.plug) mark_crushed(command, edit.loose);
+    if (command.plug && command.plug->clearance > 1) mark_crushed(command, edit.loose);
     if (log_ && edit.loose.failed > 0) {
       log_->keep(structure.compound(), command);
     }

@@ -47,6 +47,15 @@ StructureImpact shot(double speed_m_s, double radius_m = 0.4, double thickness_m
   return hit;
 }
 
+/// Returns a shot from a random direction, up to 23 degrees off the normal.
+StructureImpact tilted_shot(Random& random, double speed_m_s, double radius_m, double thickness_m) {
+  StructureImpact hit = shot(speed_m_s, radius_m, thickness_m);
+  const Vec3 tilt(random.uniform(-.3, .3), random.uniform(-.3, .3), 1);
+  hit.direction_R = tilt.normalized();
+  hit.thickness_m = thickness_m / hit.direction_R.z();
+  return hit;
+}
+
 TEST(Plug, takes_the_perforation_energy_of_CEA_EDF_and_UKAEA) {
   Material material = brick();
   material.reinforcement_percent = 0.7;
@@ -105,10 +114,8 @@ TEST(Plug, leaves_a_hole_and_keeps_the_volume) {
     Random random(seed, 77);
     const double thickness_m = random.uniform(0.1, 0.6), radius_m = random.uniform(0.1, 0.5);
     const Compound wall = box_compound(Vec3(-3, -1.5, 0), Vec3(3, 1.5, thickness_m));
-    StructureImpact hit = shot(random.uniform(5, 100), radius_m, thickness_m);
-    const Vec3 tilt(random.uniform(-.3, .3), random.uniform(-.3, .3), 1);
-    hit.direction_R = tilt.normalized();
-    hit.thickness_m = thickness_m / hit.direction_R.z();
+    const double speed_m_s = random.uniform(5, 100);
+    const StructureImpact hit = tilted_shot(random, speed_m_s, radius_m, thickness_m);
     const BreakCommand command = breaker->command(*wall.convexes[0], materials, hit, seed, seed);
     ASSERT_TRUE(command.plug);
     const BreakPlan plan = break_compound(wall, command);
@@ -128,10 +135,7 @@ TEST(Plug, has_the_section_of_the_striker_and_a_crushed_ring_around_it) {
     Random random(seed, 78);
     const double thickness_m = random.uniform(0.1, 0.3), radius_m = random.uniform(0.2, 0.5);
     const Compound wall = box_compound(Vec3(-3, -1.5, 0), Vec3(3, 1.5, thickness_m));
-    StructureImpact hit = shot(100, radius_m, thickness_m);
-    const Vec3 tilt(random.uniform(-.3, .3), random.uniform(-.3, .3), 1);
-    hit.direction_R = tilt.normalized();
-    hit.thickness_m = thickness_m / hit.direction_R.z();
+    const StructureImpact hit = tilted_shot(random, 100, radius_m, thickness_m);
     const BreakCommand command = breaker->command(*wall.convexes[0], materials, hit, seed, seed);
     ASSERT_TRUE(command.plug && command.plug->through);
     const BreakEdit edit = breaker->plan(Structure(wall), command);

@@ -218,7 +218,7 @@ TEST(GroundMesh, SupportsPiecesAndDebrisOfAWallThatBreaksOnIt) {
     if (at.y() < height_m(at) - 0.5) ++below;
   }
   EXPECT_GT(pieces, 10u);
-  EXPECT_GT(chips, 50u);
+  EXPECT_GT(chips, 80u);
   EXPECT_LT(below, chips / 20) << "debris of the wall's foot, below the ground";
 }
 

@@ -26,18 +26,21 @@ double kinetic_J_of(const WorldState& world, std::span<const Actor> actors) {
   return sum;
 }
 
-/// Returns true if a piece becomes a body: if it is anchored, held by a hinge, or large enough.
-bool is_body(const WorldState& world, const Compound& piece, bool hinged) {
-  if (piece.is_anchored() || hinged) return true;
-  return volume(piece) >= world.smallest_piece_factor *
-                              world.material(piece.convexes[0]->material).smallest_piece_m3;
-}
-
 /// Returns true if a hinge of the edit holds a piece, numbered as in exposed faces.
 bool is_hinged(const BreakEdit& edit, std::uint32_t piece) {
   return std::ranges::any_of(edit.hinges, [&](const PlasticHinge& hinge) {
     return hinge.piece_a == piece || hinge.piece_b == piece;
   });
+}
+
+/// Returns true if a piece, numbered as in exposed faces, becomes a body: if it is anchored, held
+/// by a hinge, or large enough, and not crushed.
+bool is_body(const WorldState& world, const BreakEdit& edit, std::uint32_t number,
+             const Compound& piece) {
+  if (number > 0 && !edit.loose.crushed.empty() && edit.loose.crushed[number - 1]) return false;
+  if (piece.is_anchored() || is_hinged(edit, number)) return true;
+  return volume(piece) >= world.smallest_piece_factor *
+                              world.material(piece.convexes[0]->material).smallest_piece_m3;
 }
 
 /// Returns the momentum of the debris: the parent without the pieces, moving as the parent did.
@@ -112,18 +115,20 @@ struct Pieces {
   std::vector<Actor> actors;
   std::vector<BodyDesc> bodies;
 
-  /// Adds a piece as a body, or as debris if too small. Returns its key. `is_parent`: the piece is
-  /// the parent without its anchors, which keeps its key, and its body if it is no fragment.
-  std::uint32_t add(WorldState& world, const Compound& compound, bool hinged, const Actor& parent,
-                    const Motion& motion, bool is_parent = false) {
+  /// Adds a piece, numbered as in exposed faces, as a body, or as debris if too small or crushed.
+  /// Returns its key. `is_parent`: the piece is the parent without its anchors, which keeps its
+  /// key, and its body if it is no fragment.
+  std::uint32_t add(WorldState& world, const BreakEdit& edit, std::uint32_t number,
+                    const Compound& compound, const Actor& parent, const Motion& motion,
+                    bool is_parent = false) {
     const bool is_kept = is_parent && parent.key == parent.root_key;
-    if (!is_kept && !is_body(world, compound, hinged)) {
+    if (!is_kept && !is_body(world, edit, number, compound)) {
       note_chip(world, compound, motion);
       return kNoActorKey;
     }
     Actor& piece = actors.emplace_back(make_actor(world, compound));
     // A piece that a hinge holds can break again in this step, as its parent could.
-    piece.born_step = hinged ? parent.born_step : world.clock.step + 1;
+    piece.born_step = is_hinged(edit, number) ? parent.born_step : world.clock.step + 1;
     piece.inherit(parent);
     if (is_parent) piece.key = parent.key;
     set_least(world, piece);  // recomputed, as it is a fragment
@@ -237,17 +242,11 @@ std::vector<std::uint64_t> apply_break(WorldState& world, std::uint32_t key, Bre
       if (slot.value >= parent.meshes.size()) return;  // new slots
       drawn_before[&convex] = {parent.meshes[slot.value], parent.hidden[slot.value]};
     });
-    keys[0] = pieces.add(world, rest, is_hinged(edit, 0), parent, motion, is_freed);
+    keys[0] = pieces.add(world, edit, 0, rest, parent, motion, is_freed);
   }
-  for (std::size_t i = 0; i < edit.loose.pieces.size(); ++i) {
-    const Compound& piece = edit.loose.pieces[i];
-    if (!edit.loose.crushed.empty() && edit.loose.crushed[i]) {
-      note_chip(world, piece, motion);
-      keys.push_back(kNoActorKey);
-      continue;
-    }
+  for (const Compound& piece : edit.loose.pieces) {
     const auto number = static_cast<std::uint32_t>(keys.size());
-    keys.push_back(pieces.add(world, piece, is_hinged(edit, number), parent, motion));
+    keys.push_back(pieces.add(world, edit, number, piece, parent, motion));
   }
   note_exposed(world, parent.structure, edit, motion, keys);
   share_stress_memory(parent.stress.memory, pieces.actors);
