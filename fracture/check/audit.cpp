@@ -10,7 +10,7 @@
 #include "engine/geometry/bvh.h"
 #include "engine/geometry/clip_mesh.h"
 #include "engine/geometry/polygon_mesh.h"
-#include "engine/geometry/walls/outer_surface.h"
+#include "engine/io/mesh/export_model.h"
 #include "fracture/adjacency/islands.h"
 
 namespace sunder::fracture {
@@ -92,29 +92,6 @@ PolygonMesh surface_of(const Convex& convex) {
   return convex.visual ? *convex.visual : polygon_mesh(convex.polyhedron);
 }
 
-std::size_t open_edges_of(const Compound& piece) {
-  std::size_t open = 0;
-  for (const ConvexPtr& convex : piece.convexes) {
-    open += open_edges(polygon_mesh(convex->polyhedron));
-    if (convex->visual) open += open_edges(*convex->visual);
-  }
-  return open;
-}
-
-/// Returns, per piece, 1 if faces between its convexes cannot be removed.
-std::vector<std::uint8_t> find_walled(std::span<const Compound> pieces) {
-  std::vector<std::uint8_t> walled(pieces.size(), 0);
-  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
-    std::vector<PolygonMesh> meshes;
-    for (const ConvexPtr& convex : pieces[p].convexes) meshes.push_back(surface_of(*convex));
-    if (meshes.size() < 2) return;
-    std::vector<const PolygonMesh*> pointers;
-    for (const PolygonMesh& mesh : meshes) pointers.push_back(&mesh);
-    walled[p] = outer_surface(pointers) ? 0 : 1;
-  });
-  return walled;
-}
-
 /// Sums the overlaps between convexes of different pieces.
 void add_overlaps(std::span<const Compound> pieces, Audit& audit) {
   std::vector<Box> boxes;
@@ -189,22 +166,29 @@ std::optional<DoubleCountedVolume> double_counted_volume(const Compound& compoun
 Audit audit(std::span<const Compound> pieces) {
   Audit audit;
   audit.pieces = pieces.size();
-  const std::vector<std::uint8_t> walled = find_walled(pieces);
+  std::vector<SurfaceAudit> surfaces(pieces.size());
+  std::vector<std::uint8_t> is_walled(pieces.size(), 0);
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    bool has_walls = false;
+    surfaces[p] = audit_surface(triangle_mesh(exported_surface(pieces[p], has_walls).mesh));
+    is_walled[p] = has_walls ? 1 : 0;
+  });
+  double overlaps_m3 = 0;  // which the surfaces count more than once
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const Compound& piece = pieces[p];
     audit.convexes += piece.convexes.size();
-    audit.volume_m3 += volume(piece);
-    for (const ConvexPtr& convex : piece.convexes) audit.surface_m3 += convex->solid.volume_m3;
+    audit.surface += surfaces[p];
+    audit.walled_pieces += is_walled[p];
+    audit.watertight_pieces += surfaces[p].is_sound() && !is_walled[p] ? 1 : 0;
+    overlaps_m3 -= volume(piece);
+    for (const ConvexPtr& convex : piece.convexes) {
+      overlaps_m3 += convex->solid.volume_m3;
+      audit.negative_volumes += convex->solid.volume_m3 > 0 ? 0 : 1;
+    }
     const auto islands = find_islands(piece);
     if (!islands.empty()) audit.islands += *std::max_element(islands.begin(), islands.end()) + 1;
-    const std::size_t open = open_edges_of(piece);
-    audit.open_edges += open;
-    audit.walled_pieces += walled[p];
-    audit.watertight_pieces += open == 0 && walled[p] == 0 ? 1 : 0;
-    audit.negative_volumes += static_cast<std::size_t>(
-        std::count_if(piece.convexes.begin(), piece.convexes.end(),
-                      [](const ConvexPtr& convex) { return !(convex->solid.volume_m3 > 0); }));
   }
+  audit.volume_m3 = audit.surface.volume_m3 - overlaps_m3;
   add_overlaps(pieces, audit);
   return audit;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/geometry/repair/surface_audit.h"
 #include "engine/model/compound.h"
 
 namespace sunder::fracture {
@@ -15,15 +16,12 @@ struct Audit {
   std::size_t convexes = 0;
   /// Connected components of all pieces; equal to `pieces` if all are connected.
   std::size_t islands = 0;
-  /// Pieces with closed surfaces, and an outer surface (that is, without faces between convexes) in
-  /// which every edge has exactly two faces.
+  /// Pieces whose exported surface is sound and has no faces between convexes.
   std::size_t watertight_pieces = 0;
-  std::size_t walled_pieces = 0;  ///< Pieces without such an outer surface.
-  /// Open edges of all surfaces: of convexes and of their visual meshes.
-  std::size_t open_edges = 0;
+  std::size_t walled_pieces = 0;     ///< Pieces that are exported with faces between convexes.
   std::size_t negative_volumes = 0;  ///< Convexes without volume, or inside out.
-  double volume_m3 = 0;
-  double surface_m3 = 0;  ///< Volume that surfaces enclose; overlaps count once per convex.
+  SurfaceAudit surface;   ///< Counts of the exported surfaces; overlaps count once per convex.
+  double volume_m3 = 0;   ///< Volume of the exported surfaces; overlaps count once.
   double overlap_m3 = 0;  ///< Overlap of convexes of different pieces, summed over pairs.
   /// False if the overlap of a pair of very large visual meshes is only an upper bound.
   bool overlap_is_exact = true;

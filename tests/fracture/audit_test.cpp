@@ -64,7 +64,7 @@ TEST(Audit, FindsAnOpenSurfaceAndAPieceInTwoParts) {
   const Audit found = audit(std::span(&piece, 1));
   EXPECT_EQ(found.islands, 2u);
   EXPECT_EQ(found.watertight_pieces, 0u);
-  EXPECT_EQ(found.open_edges, 4u);
+  EXPECT_EQ(found.surface.open_edges, 4u);
 }
 
 }  // namespace

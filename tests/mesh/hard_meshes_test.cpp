@@ -37,7 +37,7 @@ void expect_solids(const RawMesh& mesh, const std::string& name) {
   const Vacd vacd = fracture::decompose(repaired);
   const fracture::Audit whole = fracture::audit(std::span(&vacd.compound, 1));
   EXPECT_EQ(whole.negative_volumes, 0u) << name << " before it breaks";
-  EXPECT_EQ(whole.open_edges, 0u) << name << " before it breaks";
+  EXPECT_EQ(whole.surface.open_edges, 0u) << name << " before it breaks";
   if (vacd.compound.convexes.empty()) return;
   using Kind = PatternSpec::Kind;
   for (const auto& [kind, cells] :
@@ -45,7 +45,7 @@ void expect_solids(const RawMesh& mesh, const std::string& name) {
     const BreakPlan plan = break_all(vacd.compound, kind, cells);
     const fracture::Audit audit = fracture::audit(plan.pieces);
     EXPECT_EQ(audit.negative_volumes, 0u) << name;
-    EXPECT_EQ(audit.open_edges, 0u) << name;
+    EXPECT_EQ(audit.surface.open_edges, 0u) << name;
     EXPECT_NEAR(audit.volume_m3 + plan.debris_volume_m3, whole.volume_m3, 1e-12 * whole.volume_m3)
         << name;
   }

@@ -9,6 +9,7 @@
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/hash.h"
 #include "engine/geometry/bvh.h"
+#include "engine/geometry/close_points.h"
 #include "engine/geometry/double_area.h"
 
 namespace sunder {
@@ -184,6 +185,41 @@ std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, d
       count += joined.join(found->second, v) ? 1 : 0;
     }
   }
+  rename_vertices(mesh, joined.roots());
+  return count;
+}
+
+std::vector<std::array<std::uint32_t, 2>> find_twins(const RawMesh& mesh, double distance_m) {
+  std::vector<std::uint32_t> used = mesh.corners;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<Vec3> points;
+  points.reserve(used.size());
+  for (const std::uint32_t v : used) points.push_back(mesh.vertices[v]);
+  std::vector<std::array<std::uint32_t, 2>> twins;
+  each_close_pair(points, distance_m, [&](std::uint32_t a, std::uint32_t b) {
+    twins.push_back({std::min(used[a], used[b]), std::max(used[a], used[b])});
+  });
+  if (twins.empty()) return twins;
+  DisjointSets chains(mesh.vertices.size());
+  for (std::size_t p = 0; p < mesh.polygons.size(); ++p) {
+    const auto corners = mesh.polygon_corners(p);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t a = corners[i], b = corners[(i + 1) % corners.size()];
+      if ((mesh.vertices[a] - mesh.vertices[b]).norm() <= distance_m) chains.join(a, b);
+    }
+  }
+  std::erase_if(twins,
+                [&](const auto& pair) { return chains.root(pair[0]) == chains.root(pair[1]); });
+  return twins;
+}
+
+std::size_t join_twins(RawMesh& mesh, double distance_m) {
+  const auto twins = find_twins(mesh, distance_m);
+  if (twins.empty()) return 0;
+  DisjointSets joined(mesh.vertices.size());
+  std::size_t count = 0;
+  for (const auto& [a, b] : twins) count += joined.join(a, b) ? 1 : 0;
   rename_vertices(mesh, joined.roots());
   return count;
 }

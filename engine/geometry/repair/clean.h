@@ -1,6 +1,7 @@
 // The first tier of repair: joins vertices and removes degenerate and duplicate polygons.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,10 @@ void drop_unused_vertices(RawMesh& mesh);
 std::size_t join_identical(RawMesh& mesh);
 /// Joins the given vertices within `tolerance_m` of each other. Returns the number of joins.
 std::size_t join_close(RawMesh& mesh, std::span<const std::uint32_t> vertices, double tolerance_m);
+/// Returns the pairs of vertices at most `distance_m` apart that no chain of edges as short joins.
+std::vector<std::array<std::uint32_t, 2>> find_twins(const RawMesh& mesh, double distance_m);
+/// Joins the vertices of such pairs. Returns the number of joins.
+std::size_t join_twins(RawMesh& mesh, double distance_m);
 /// Removes repeated corners, spikes and degenerate polygons. Returns how many polygons it removed.
 std::size_t drop_degenerate(RawMesh& mesh);
 /// Removes polygons with the vertices and orientation of another; those of opposite orientation

@@ -27,42 +27,54 @@ std::uint32_t material_of(const PolygonMesh::Face& face, MaterialIndex material,
   return face.appearance > 0 ? first_appearance + face.appearance - 1 : 2 * material.value;
 }
 
+std::shared_ptr<const PolygonMesh> surface_of(const Convex& convex) {
+  if (convex.visual) return convex.visual;
+  return std::make_shared<const PolygonMesh>(polygon_mesh(convex.polyhedron));
+}
+
 /// Returns the shells of a piece. Sets `is_walled` to 1 if inner walls could not be removed.
 std::vector<Model::Shell> shells_of(const Compound& piece, std::uint32_t first_appearance,
                                     Walls walls, std::uint8_t& is_walled) {
-  std::vector<std::shared_ptr<const PolygonMesh>> meshes;
-  std::vector<const PolygonMesh*> pointers;
-  for (const ConvexPtr& convex : piece.convexes) {
-    meshes.push_back(convex->visual
-                         ? convex->visual
-                         : std::make_shared<const PolygonMesh>(polygon_mesh(convex->polyhedron)));
-    pointers.push_back(meshes.back().get());
-  }
   std::vector<Model::Shell> shells;
-  const auto add = [&](std::shared_ptr<const PolygonMesh> mesh, const auto& convex_of) {
+  const auto add = [&](OuterSurface surface) {
     std::vector<std::uint32_t> materials;
-    for (std::size_t f = 0; f < mesh->faces.size(); ++f) {
-      const MaterialIndex material = piece.convexes[convex_of(f)]->material;
-      materials.push_back(material_of(mesh->faces[f], material, first_appearance));
+    for (std::size_t f = 0; f < surface.mesh.faces.size(); ++f) {
+      const MaterialIndex material = piece.convexes[surface.from[f]]->material;
+      materials.push_back(material_of(surface.mesh.faces[f], material, first_appearance));
     }
-    shells.push_back({std::move(mesh), std::move(materials)});
+    shells.push_back(
+        {std::make_shared<const PolygonMesh>(std::move(surface.mesh)), std::move(materials)});
   };
   if (walls == Walls::kRemove) {
-    std::optional<OuterSurface> outer = outer_surface(pointers);
-    is_walled = !outer;
-    if (is_walled) outer = concatenate_meshes(pointers);
-    make_triangles_manifold(*outer);
-    add(std::make_shared<const PolygonMesh>(std::move(outer->mesh)),
-        [&](std::size_t f) { return outer->from[f]; });
+    bool has_walls = false;
+    add(exported_surface(piece, has_walls));
+    is_walled = has_walls ? 1 : 0;
     return shells;
   }
-  for (std::size_t c = 0; c < meshes.size(); ++c) {
-    add(std::move(meshes[c]), [&](std::size_t) { return c; });
+  for (std::uint32_t c = 0; c < piece.convexes.size(); ++c) {
+    const std::shared_ptr<const PolygonMesh> mesh = surface_of(*piece.convexes[c]);
+    OuterSurface surface{*mesh, std::vector<std::uint32_t>(mesh->faces.size(), c)};
+    make_triangles_manifold(surface);
+    add(std::move(surface));
   }
   return shells;
 }
 
 }  // namespace
+
+OuterSurface exported_surface(const Compound& piece, bool& has_walls) {
+  std::vector<std::shared_ptr<const PolygonMesh>> meshes;
+  std::vector<const PolygonMesh*> pointers;
+  for (const ConvexPtr& convex : piece.convexes) {
+    meshes.push_back(surface_of(*convex));
+    pointers.push_back(meshes.back().get());
+  }
+  std::optional<OuterSurface> outer = outer_surface(pointers);
+  has_walls = !outer;
+  if (has_walls) outer = concatenate_meshes(pointers);
+  make_triangles_manifold(*outer);
+  return std::move(*outer);
+}
 
 Model make_model(std::span<const Compound> pieces, std::span<const Material> materials,
                  double explode, std::span<const Appearance> appearances, Walls walls) {

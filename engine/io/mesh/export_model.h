@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/geometry/polygon_mesh.h"
+#include "engine/geometry/walls/outer_surface.h"
 #include "engine/model/compound.h"
 
 namespace sunder {
@@ -41,6 +42,10 @@ struct Model {
 
 /// Selects if an export keeps the faces between convexes of one piece.
 enum class Walls : std::uint8_t { kRemove, kKeep };
+
+/// Returns the surface of a piece as it is exported with Walls::kRemove; `from` of a face is the
+/// index of its convex. Sets `has_walls` to true if inner walls could not be removed.
+OuterSurface exported_surface(const Compound& piece, bool& has_walls);
 
 /// Makes a part of each compound. With Walls::kRemove, a part has one shell, its outer surface;
 /// inner walls that cannot be removed remain. With Walls::kKeep, a part has one shell for each
