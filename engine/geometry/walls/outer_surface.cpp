@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "engine/base/disjoint_sets.h"
+#include "engine/geometry/close_points.h"
 #include "engine/geometry/triangulate_face.h"
 #include "engine/geometry/walls/piece_surface.h"
 
@@ -14,6 +15,8 @@ namespace {
 /// Distances up to which points of two meshes are joined, over the largest coordinate, in the order
 /// in which they are tried until the surface is closed.
 constexpr double kTolerances[] = {4e-12, 4e-13, 4e-14, 4e-11, 4e-10};
+/// Distance over the largest coordinate by which rounding errors separate points that are one.
+constexpr double kRoundingTolerance = 4e-14;
 /// Greatest relative error of the volume of a result.
 constexpr double kMaxVolumeError = 1e-12;
 
@@ -27,22 +30,6 @@ std::optional<OuterSurface> merge_meshes(std::span<const PolygonMesh* const> mes
   }
   if (!divide_touching_edges(surface)) return std::nullopt;
   return assemble(surface);
-}
-
-/// Returns for each vertex the first vertex at the same position.
-std::vector<std::uint32_t> first_vertices_at_positions(const PolygonMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.vertices.size()), first_at(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto is_less = [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b];
-    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-  };
-  std::stable_sort(order.begin(), order.end(), is_less);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_new = i == 0 || is_less(order[i - 1], order[i]);
-    first_at[order[i]] = is_new ? order[i] : first_at[order[i - 1]];
-  }
-  return first_at;
 }
 
 /// Removes pairs of triangles with the same corners and opposite orientation.
@@ -82,10 +69,18 @@ void cancel_opposite(std::vector<PieceSurface::Face>& triangles) {
   triangles.resize(kept);
 }
 
-/// Returns the triangles of a surface on common points, without degenerate ones.
-PieceSurface triangles_on_common_points(const OuterSurface& outer) {
+/// Returns the triangles of a surface on common points. Sets `is_changed` to true if points were
+/// moved, or triangles left out because they have equal corners.
+PieceSurface triangles_on_common_points(const OuterSurface& outer, bool& is_changed) {
   const PolygonMesh& mesh = outer.mesh;
-  const std::vector<std::uint32_t> first_at = first_vertices_at_positions(mesh);
+  double reach = 0;
+  for (const Vec3& v : mesh.vertices) reach = std::max(reach, v.cwiseAbs().maxCoeff());
+  DisjointSets joined(mesh.vertices.size());
+  each_close_pair(mesh.vertices, kRoundingTolerance * reach, [&](std::uint32_t a, std::uint32_t b) {
+    joined.join(a, b);
+    is_changed |= mesh.vertices[a] != mesh.vertices[b];
+  });
+  const std::vector<std::uint32_t> first_at = joined.roots();
   PieceSurface surface;
   surface.points = mesh.vertices;
   surface.has_uvs = !mesh.corner_uvs.empty();
@@ -98,12 +93,42 @@ PieceSurface triangles_on_common_points(const OuterSurface& outer) {
         contour.push_back({first_at[mesh.corners[c]], mesh.corner_normals[c], uv});
       }
       clean_contour(contour);
+      is_changed |= contour.empty();
       if (contour.empty()) continue;
+      const Vec3& apex = surface.points[contour[0].point];
+      const Vec3 area =
+          (surface.points[contour[1].point] - apex).cross(surface.points[contour[2].point] - apex);
+      // A face whose outline crosses itself has triangles that face the other way.
+      const Plane plane = area.dot(face.plane.normal) < 0 ? face.plane.flipped() : face.plane;
       surface.faces.push_back(
-          {face.plane, face.id, face.kind, face.appearance, outer.from[f], {contour}});
+          {plane, face.id, face.kind, face.appearance, outer.from[f], {contour}});
     }
   }
   return surface;
+}
+
+/// Replaces triangles that have points from `first_new` on in their edges by triangles that have
+/// these as corners. No triangle has an edge from end to end of one that was divided.
+void triangulate_divided(PieceSurface& surface, std::uint32_t first_new) {
+  std::vector<PieceSurface::Face> triangles;
+  for (PieceSurface::Face& face : surface.faces) {
+    PieceSurface::Contour rest = std::move(face.contours[0]);
+    const auto is_new = [&](std::size_t i) { return rest[i % rest.size()].point >= first_new; };
+    const auto cut = [&](std::size_t tip) {
+      const std::size_t n = rest.size();
+      triangles.push_back(face);
+      triangles.back().contours = {{rest[(tip + n - 1) % n], rest[tip], rest[(tip + 1) % n]}};
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(tip));
+    };
+    for (std::size_t i = 0; rest.size() > 3 && i < rest.size(); ++i) {
+      if (!is_new(i) && is_new(i + 1) && is_new(i + rest.size() - 1)) cut(i);
+    }
+    std::size_t hub = 0;  // a new point, which is a corner of all the triangles that are left
+    while (rest.size() > 3 && !is_new(hub)) ++hub;
+    std::rotate(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(hub), rest.end());
+    while (rest.size() >= 3) cut(1);
+  }
+  surface.faces = std::move(triangles);
 }
 
 /// Returns true if an edge has more than two faces.
@@ -147,10 +172,13 @@ std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> me
 void make_triangles_manifold(OuterSurface& outer) {
   constexpr int kMaxRounds = 4;  // divided triangles have new edges, which may coincide
   for (int round = 0; round < kMaxRounds; ++round) {
-    PieceSurface surface = triangles_on_common_points(outer);
-    if (!has_non_manifold_edge(surface)) return;
+    bool is_changed = false;
+    PieceSurface surface = triangles_on_common_points(outer, is_changed);
+    if (!is_changed && !has_non_manifold_edge(surface)) return;
     cancel_opposite(surface.faces);
+    const auto first_new = static_cast<std::uint32_t>(surface.points.size());
     if (surface.faces.empty() || !divide_touching_edges(surface)) return;
+    triangulate_divided(surface, first_new);
     std::optional<OuterSurface> separated = assemble(surface);
     if (!separated) return;
     outer = std::move(*separated);

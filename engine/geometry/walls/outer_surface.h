@@ -30,9 +30,10 @@ std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> me
 /// Returns several closed meshes as one, with the walls between them.
 OuterSurface concatenate_meshes(std::span<const PolygonMesh* const> meshes);
 
-/// Triangulates a surface so that every edge belongs to two triangles also after vertices at equal
-/// positions are welded: edges of more than two triangles are divided, at a different point for
-/// each pair. A surface that does not touch itself is left unchanged.
+/// Triangulates a surface so that no triangle has equal corners and every edge belongs to two
+/// triangles also after vertices at equal positions are welded. Points that differ by rounding
+/// errors are joined; edges of more than two triangles are divided, at a different point for each
+/// pair. A surface whose triangles are so already is left unchanged.
 void make_triangles_manifold(OuterSurface& outer);
 
 }  // namespace sunder
