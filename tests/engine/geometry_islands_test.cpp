@@ -69,6 +69,22 @@ TEST(Islands, AHollowBelongsToTheSolidAroundIt) {
   EXPECT_NEAR(test::volume(parts[1]), 0.125, 1e-15);
 }
 
+TEST(Islands, AHollowThatTouchesASideBelongsToTheSolidAroundIt) {
+  // The hollow is the cube of ±0.5 in that of ±1; one cut lies in a side of it.
+  for (const double side : {-1.0, 1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Plane in_side{side * Vec3::Unit(axis), -0.5};
+      const PolygonMesh whole_hollow = cut(hollow_box(), in_side);
+      ASSERT_EQ(islands(whole_hollow).size(), 1u) << axis;
+      EXPECT_NEAR(test::volume(whole_hollow), 6 - 1, 1e-14);
+      // The other cut goes through the hollow, which ends in the outline of the cap.
+      const PolygonMesh half = cut(whole_hollow, Plane{Vec3::Unit((axis + 1) % 3), 0.4});
+      ASSERT_EQ(islands(half).size(), 1u) << axis;
+      EXPECT_NEAR(test::volume(half), 0.6 * 2 * 1.5 - 0.1, 1e-14);
+    }
+  }
+}
+
 TEST(Islands, ASolidInAHollowIsPartedFromItByACutThroughBoth) {
   const PolygonMesh nested = concatenated(hollow_box(), polygon_mesh(cube(0.25)));
   const PolygonMesh half = cut(nested, Plane{Vec3(0.6, 0.8, 0), 0});
