@@ -146,7 +146,8 @@ class SurfaceCutter {
       const bool alone = meshes.size() == 1;
       const MassProperties solid = alone ? draft.visual_solid : mass_properties(mesh);
       if (!alone && solid.volume_m3 < floor_m3_) {
-        parts.debris_m3 += solid.volume_m3;
+        // An island that is inside out is no debris: without it the volumes do not add up.
+        parts.debris_m3 += std::max(0.0, solid.volume_m3);
         continue;
       }
       parts.convexes.push_back(surface_convex(draft, std::move(mesh), solid));
