@@ -11,12 +11,16 @@
 #include "engine/geometry/repair/shell.h"
 #include "engine/geometry/repair/solids.h"
 #include "engine/geometry/repair/surface.h"
+#include "engine/geometry/repair/surface_audit.h"
 
 namespace sunder {
 namespace {
 
 /// Distance over the mesh's diagonal up to which open vertices and edges are joined.
 constexpr double kJoinTolerance = 1e-6;
+/// Distance up to which vertices that no edge joins are one: solids on a grid of kTwinDistance_m
+/// that are a step apart along each axis touch.
+constexpr double kMaxTwinDistance_m = 2 * kTwinDistance_m;
 /// Least volume of a shell that counts as solid, over its area to the power 3/2.
 constexpr double kMinThicknessRatio = 1e-6;
 /// Least area of the open part, over the area of the mesh, that gets a winding-number shell.
@@ -46,6 +50,8 @@ std::size_t drop_degenerate_and_duplicate(RawMesh& mesh, Repairs& repairs) {
 /// Tier 1: joins vertices, removes degenerate and duplicate faces, and resolves T-junctions.
 void clean(RawMesh& mesh, double size, Repairs& repairs) {
   repairs.record("identical vertices joined", join_identical(mesh), true);
+  repairs.record("twin vertices joined",
+                 join_twins(mesh, std::min(kMaxTwinDistance_m, kJoinTolerance * size)));
   drop_degenerate_and_duplicate(mesh, repairs);
   const auto open_vertices = [](const Surface& surface) {
     std::vector<std::uint32_t> vertices;
