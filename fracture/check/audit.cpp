@@ -92,6 +92,34 @@ PolygonMesh surface_of(const Convex& convex) {
   return convex.visual ? *convex.visual : polygon_mesh(convex.polyhedron);
 }
 
+/// Returns the counts of each piece's exported surface. Sets `is_walled` to 1 for those with faces
+/// between convexes.
+std::vector<SurfaceAudit> surfaces_of(std::span<const Compound> pieces,
+                                      std::vector<std::uint8_t>& is_walled) {
+  std::vector<SurfaceAudit> surfaces(pieces.size());
+  is_walled.assign(pieces.size(), 0);
+  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
+    bool has_walls = false;
+    surfaces[p] = audit_surface(triangle_mesh(exported_surface(pieces[p], has_walls).mesh));
+    is_walled[p] = has_walls ? 1 : 0;
+  });
+  return surfaces;
+}
+
+/// Returns true if three convexes overlap pairwise.
+bool has_triple(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) {
+  std::ranges::sort(pairs);
+  const auto has = [&](std::uint32_t a, std::uint32_t b) {
+    return std::ranges::binary_search(pairs, std::pair(std::min(a, b), std::max(a, b)));
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t j = i + 1; j < pairs.size() && pairs[j].first == pairs[i].first; ++j) {
+      if (has(pairs[i].second, pairs[j].second)) return true;
+    }
+  }
+  return false;
+}
+
 /// Sums the overlaps between convexes of different pieces.
 void add_overlaps(std::span<const Compound> pieces, Audit& audit) {
   std::vector<Box> boxes;
@@ -159,20 +187,28 @@ std::optional<DoubleCountedVolume> double_counted_volume(const Compound& compoun
         std::max(0.0, common_volume(*compound.convexes[of[0]], *compound.convexes[of[1]], exact));
     exact_of[g] = exact ? 1 : 0;
   });
-  return DoubleCountedVolume{std::accumulate(volume.begin(), volume.end(), 0.0),
-                             std::find(exact_of.begin(), exact_of.end(), 0) == exact_of.end()};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    const std::vector<std::uint32_t>& of = ghosts[g]->of;
+    if (volume[g] > 0) pairs.emplace_back(std::minmax(of[0], of[1]));
+  }
+  return DoubleCountedVolume{
+      std::accumulate(volume.begin(), volume.end(), 0.0),
+      std::find(exact_of.begin(), exact_of.end(), 0) == exact_of.end() && !has_triple(pairs)};
+}
+
+SurfaceAudit audit_surfaces(std::span<const Compound> pieces) {
+  std::vector<std::uint8_t> is_walled;
+  SurfaceAudit sum;
+  for (const SurfaceAudit& surface : surfaces_of(pieces, is_walled)) sum += surface;
+  return sum;
 }
 
 Audit audit(std::span<const Compound> pieces) {
   Audit audit;
   audit.pieces = pieces.size();
-  std::vector<SurfaceAudit> surfaces(pieces.size());
-  std::vector<std::uint8_t> is_walled(pieces.size(), 0);
-  for_chunks(pieces.size(), 1, [&](std::size_t p, std::size_t, std::size_t) {
-    bool has_walls = false;
-    surfaces[p] = audit_surface(triangle_mesh(exported_surface(pieces[p], has_walls).mesh));
-    is_walled[p] = has_walls ? 1 : 0;
-  });
+  std::vector<std::uint8_t> is_walled;
+  const std::vector<SurfaceAudit> surfaces = surfaces_of(pieces, is_walled);
   double overlaps_m3 = 0;  // which the surfaces count more than once
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const Compound& piece = pieces[p];

@@ -30,10 +30,16 @@ struct Audit {
 /// Measures the pieces. Runs in parallel.
 Audit audit(std::span<const Compound> pieces);
 
+/// Counts the faults of the surfaces of pieces as they are exported, and sums the counts. Runs in
+/// parallel.
+SurfaceAudit audit_surfaces(std::span<const Compound> pieces);
+
 /// Volume that is counted more than once.
 struct DoubleCountedVolume {
   double volume_m3 = 0;
-  bool is_exact = true;  ///< False if the volume is only an upper bound.
+  /// False if the volume is only an upper bound: for very large visual meshes, and where three
+  /// convexes overlap pairwise.
+  bool is_exact = true;
 };
 /// Returns the volume that convexes with visual meshes share with others of their compound, summed
 /// over pairs; nullopt if there are too many pairs to measure.

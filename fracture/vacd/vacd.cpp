@@ -158,7 +158,7 @@ VacdFigures measure(const Compound& compound, const RepairedMesh& mesh) {
   VacdFigures figures;
   figures.ghosts = compound.ghosts.size();
   for (const PolygonMesh& shell : mesh.shells) {
-    figures.mesh_volume_m3 += mass_properties(shell).volume_m3;
+    figures.shell_volume_m3 += mass_properties(shell).volume_m3;
   }
   for (const ConvexPtr& convex : compound.convexes) {
     figures.hull_volume_m3 += mass_properties(convex->polyhedron).volume_m3;

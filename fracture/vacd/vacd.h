@@ -55,7 +55,7 @@ struct VacdOptions {
 
 /// Measurements of a decomposition.
 struct VacdFigures {
-  double mesh_volume_m3 = 0;
+  double shell_volume_m3 = 0;  ///< Sum over the shells; overlaps count once per shell.
   /// Volume of parts left out because they are inside out: the mesh intersects itself there.
   double inside_out_m3 = 0;
   double hull_volume_m3 = 0;  ///< Volume of all convexes' polyhedra.
@@ -65,7 +65,7 @@ struct VacdFigures {
   double split_ms = 0;     ///< Time for nodes, regions and cutting the mesh.
   double total_ms = 0;
 
-  double hull_volume_ratio() const { return hull_volume_m3 / mesh_volume_m3; }
+  double hull_volume_ratio() const { return hull_volume_m3 / shell_volume_m3; }
   /// True if the hulls have at most 1.15 times the volume of the mesh.
   bool has_tight_hulls() const;
 };

@@ -100,16 +100,10 @@ Figures figures_of(const scenes::MeshSolid& solid, double scale, const Broken& b
   figures["/volume_in_m3"] = broken.before.volume_m3;
   add_doubled(broken.double_counted, figures);
   figures["/volume_out_m3"] = after.volume_m3;
-  figures["/surface_volume_m3"] = after.surface.volume_m3;
   figures["/debris_volume_m3"] = broken.plan.debris_volume_m3;
   figures["/volume_error"] = volume_error(broken);
   figures["/watertight_pieces"] = whole(after.watertight_pieces);
-  figures["/open_edges"] = whole(after.surface.open_edges);
-  figures["/non_manifold_edges"] = whole(after.surface.non_manifold_edges);
-  figures["/twin_points"] = whole(after.surface.twin_points);
-  figures["/collapsed_triangles"] = whole(after.surface.collapsed_triangles);
-  figures["/inside_out_islands"] = whole(after.surface.inside_out_islands);
-  figures["/inside_out_m3"] = after.surface.inside_out_m3;
+  add_faults(after.surface, figures);
   figures["/walled_pieces"] = whole(after.walled_pieces);
   figures["/negative_volumes"] = whole(after.negative_volumes);
   figures["/overlap_volume_m3"] = after.overlap_m3;

@@ -89,6 +89,19 @@ std::string input_summary(const scenes::MeshSolid& solid, double scale) {
          text(size_of(solid), scale);
 }
 
+void add_faults(const SurfaceAudit& surface, Figures& figures) {
+  const auto add = [&](const char* key, std::size_t count) {
+    figures[key] = static_cast<std::int64_t>(count);
+  };
+  add("/open_edges", surface.open_edges);
+  add("/non_manifold_edges", surface.non_manifold_edges);
+  add("/twin_points", surface.twin_points);
+  add("/collapsed_triangles", surface.collapsed_triangles);
+  add("/inside_out_islands", surface.inside_out_islands);
+  figures["/inside_out_m3"] = surface.inside_out_m3;
+  figures["/surface_volume_m3"] = surface.volume_m3;
+}
+
 void add_doubled(const std::optional<fracture::DoubleCountedVolume>& double_counted,
                  Figures& figures) {
   if (!double_counted) return;

@@ -32,6 +32,8 @@ void print_warnings(const scenes::MeshSolid& solid);
 /// Returns three lines of text on the input, its repairs and its size.
 std::string input_summary(const scenes::MeshSolid& solid, double scale = 1);
 
+/// Adds the counts of the faults of exported surfaces to the figures.
+void add_faults(const SurfaceAudit& surface, Figures& figures);
 /// Returns a line on the volume that overlaps count twice; empty if there is none.
 std::string doubled_summary(const std::optional<fracture::DoubleCountedVolume>& double_counted);
 /// Adds the volume that overlaps count twice to the figures; nothing if it was not measured.

@@ -19,34 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Doubled = std::optional<fracture::DoubleCountedVolume>;
 
-Figures figures_of(const scenes::MeshSolid& solid, double scale, const Doubled& double_counted) {
-  Figures figures = input_figures(solid, scale);
-  figures["/convexes"] = static_cast<std::int64_t>(solid.compound.convexes.size());
-  figures["/ghosts"] = static_cast<std::int64_t>(solid.compound.ghosts.size());
-  figures["/hull_volume_ratio"] = solid.vacd->hull_volume_ratio();
-  figures["/max_faces_per_convex"] = static_cast<std::int64_t>(solid.vacd->max_faces_per_convex);
-  figures["/volume_m3"] = solid.vacd->mesh_volume_m3;
-  add_doubled(double_counted, figures);
-  figures["/prepare_ms"] = solid.prepare_ms - solid.vacd->total_ms;
-  figures["/split_ms"] = solid.vacd->split_ms;
-  figures["/total_ms"] = solid.vacd->total_ms;
-  return figures;
-}
-
-std::string summary(const scenes::MeshSolid& solid, double scale, const Doubled& double_counted) {
-  const fracture::VacdFigures& vacd = *solid.vacd;
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "pieces   %zu convexes, at most %zu polygons each; %zu ghosts\n"
-                "tightness %.4f: all hulls %.6g m³, the mesh %.6g m³\n"
-                "time     reading and repair %.1f ms, decomposition %.1f ms (split %.1f)\n",
-                solid.compound.convexes.size(), vacd.max_faces_per_convex,
-                solid.compound.ghosts.size(), vacd.hull_volume_ratio(), vacd.hull_volume_m3,
-                vacd.mesh_volume_m3, solid.prepare_ms - vacd.total_ms, vacd.total_ms,
-                vacd.split_ms);
-  return input_summary(solid, scale) + text + doubled_summary(double_counted);
-}
-
 /// Returns each convex as a compound of its own; colours repeat after `colors` convexes.
 std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
   std::vector<Compound> convexes;
@@ -56,6 +28,59 @@ std::vector<Compound> one_by_one(const Compound& compound, std::size_t colors) {
     convexes.push_back({{convex}, {0}, {}, {}});
   }
   return convexes;
+}
+
+/// The volume of a decomposed mesh, measured from the surfaces of its convexes as they are
+/// exported.
+struct Measured {
+  SurfaceAudit surface;
+  Doubled double_counted;
+  double volume_m3 = 0;  ///< Volume of the union of all convexes.
+
+  explicit Measured(const Compound& compound)
+      : surface(fracture::audit_surfaces(one_by_one(compound, 1))),
+        double_counted(fracture::double_counted_volume(compound)),
+        volume_m3(surface.volume_m3 + volume(compound)) {
+    for (const ConvexPtr& convex : compound.convexes) volume_m3 -= convex->solid.volume_m3;
+    if (double_counted) volume_m3 -= double_counted->volume_m3;
+  }
+
+  /// Returns the kind of figure that `volume_m3` is.
+  const char* method() const {
+    if (!double_counted) return "upper bound";
+    return double_counted->is_exact ? "exact" : "lower bound";
+  }
+};
+
+Figures figures_of(const scenes::MeshSolid& solid, double scale, const Measured& measured) {
+  Figures figures = input_figures(solid, scale);
+  figures["/convexes"] = static_cast<std::int64_t>(solid.compound.convexes.size());
+  figures["/ghosts"] = static_cast<std::int64_t>(solid.compound.ghosts.size());
+  figures["/hull_volume_ratio"] = solid.vacd->hull_volume_ratio();
+  figures["/max_faces_per_convex"] = static_cast<std::int64_t>(solid.vacd->max_faces_per_convex);
+  figures["/volume_m3"] = measured.volume_m3;
+  figures["/volume_method"] = std::string(measured.method());
+  add_faults(measured.surface, figures);
+  add_doubled(measured.double_counted, figures);
+  figures["/prepare_ms"] = solid.prepare_ms - solid.vacd->total_ms;
+  figures["/split_ms"] = solid.vacd->split_ms;
+  figures["/total_ms"] = solid.vacd->total_ms;
+  return figures;
+}
+
+std::string summary(const scenes::MeshSolid& solid, double scale, const Measured& measured) {
+  const fracture::VacdFigures& vacd = *solid.vacd;
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "pieces   %zu convexes, at most %zu polygons each; %zu ghosts\n"
+                "tightness %.4f: all hulls %.6g m³, all shells %.6g m³\n"
+                "volume   %.6g m³ (%s), overlaps counted once\n"
+                "time     reading and repair %.1f ms, decomposition %.1f ms (split %.1f)\n",
+                solid.compound.convexes.size(), vacd.max_faces_per_convex,
+                solid.compound.ghosts.size(), vacd.hull_volume_ratio(), vacd.hull_volume_m3,
+                vacd.shell_volume_m3, measured.volume_m3, measured.method(),
+                solid.prepare_ms - vacd.total_ms, vacd.total_ms, vacd.split_ms);
+  return input_summary(solid, scale) + text + doubled_summary(measured.double_counted);
 }
 
 void check_hulls(const std::string& file) {
@@ -89,8 +114,8 @@ void decompose_once(const VacdOptions& options) {
   const scenes::MeshSolid solid = scenes::make_mesh_solid(options.mesh, mesh);
   progress.reset();
   print_warnings(solid);
-  const Doubled double_counted = fracture::double_counted_volume(solid.compound);
-  options.print(summary(solid, mesh.scale, double_counted));
+  const Measured measured(solid.compound);
+  options.print(summary(solid, mesh.scale, measured));
   if (!options.output.empty()) {
     const std::vector<Material> colors = palette();
     write_solids(options.output, one_by_one(solid.compound, colors.size()), colors, {},
@@ -101,7 +126,7 @@ void decompose_once(const VacdOptions& options) {
     write_hulls(options.hulls, solid);
     options.print("wrote " + options.hulls + "\n");
   }
-  options.write_json(format_figures(figures_of(solid, mesh.scale, double_counted)));
+  options.write_json(format_figures(figures_of(solid, mesh.scale, measured)));
 }
 
 /// Decomposes the mesh again whenever the file of nodes changes, until the program is stopped.

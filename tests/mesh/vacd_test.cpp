@@ -105,7 +105,7 @@ TEST(Vacd, OfRealMeshesKeepsItsInvariants) {
         continue;
       }
       const Vacd vacd = decompose(mesh);
-      EXPECT_LE(vacd.figures.inside_out_m3, 1e-3 * vacd.figures.mesh_volume_m3) << name;
+      EXPECT_LE(vacd.figures.inside_out_m3, 1e-3 * vacd.figures.shell_volume_m3) << name;
       EXPECT_EQ(find_violation(vacd.compound, mesh), "") << name;
       if (vacd.figures.max_faces_per_convex > 3000) continue;  // Would take too long.
       VacdOptions tight;
