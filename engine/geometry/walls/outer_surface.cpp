@@ -21,12 +21,12 @@ constexpr double kRoundingTolerance = 4e-14;
 constexpr double kMaxVolumeError = 1e-12;
 
 std::optional<OuterSurface> merge_meshes(std::span<const PolygonMesh* const> meshes,
-                                         double tolerance_m) {
+                                         double tolerance_m, bool cover_repeatedly) {
   PieceSurface surface = join_meshes(meshes, tolerance_m);
   const std::vector<WallPlane> planes = find_wall_planes(surface, tolerance_m);
   if (!split_edges(surface, planes, tolerance_m)) return std::nullopt;
   for (const WallPlane& plane : planes) {
-    if (!remove_common(surface, plane)) return std::nullopt;
+    if (!remove_common(surface, plane, cover_repeatedly)) return std::nullopt;
   }
   if (!divide_touching_edges(surface)) return std::nullopt;
   return assemble(surface);
@@ -160,11 +160,14 @@ std::optional<OuterSurface> outer_surface(std::span<const PolygonMesh* const> me
     volume_m3 += mass_properties(*mesh).volume_m3;
     for (const Vec3& v : mesh->vertices) reach = std::max(reach, v.cwiseAbs().maxCoeff());
   }
-  for (const double tolerance : kTolerances) {
-    std::optional<OuterSurface> result = merge_meshes(meshes, tolerance * reach);
-    if (!result || open_edges(result->mesh) > 0) continue;
-    const double error = mass_properties(result->mesh).volume_m3 - volume_m3;
-    if (std::abs(error) <= kMaxVolumeError * std::abs(volume_m3)) return result;
+  for (const bool cover_repeatedly : {false, true}) {
+    for (const double tolerance : kTolerances) {
+      std::optional<OuterSurface> result =
+          merge_meshes(meshes, tolerance * reach, cover_repeatedly);
+      if (!result || open_edges(result->mesh) > 0) continue;
+      const double error = mass_properties(result->mesh).volume_m3 - volume_m3;
+      if (std::abs(error) <= kMaxVolumeError * std::abs(volume_m3)) return result;
+    }
   }
   return std::nullopt;
 }

@@ -58,9 +58,10 @@ std::vector<WallPlane> find_wall_planes(const PieceSurface& surface, double tole
 /// in all faces that have these edges. Returns false if too many rounds are needed.
 bool split_edges(PieceSurface& surface, std::span<const WallPlane> planes, double tolerance_m);
 
-/// Removes the common parts of faces of a plane with opposite ids. Edges must have been split.
+/// Removes the common parts of faces of a plane with opposite ids. Edges must have been split. A
+/// face whose outline crosses itself is right with `cover_repeatedly` only, which takes longer.
 /// Returns false if the outline of a remaining part is not closed.
-bool remove_common(PieceSurface& surface, const WallPlane& plane);
+bool remove_common(PieceSurface& surface, const WallPlane& plane, bool cover_repeatedly);
 
 /// Divides edges of more than two faces: for each pair of faces with solid between them at a
 /// different point, so that no two pairs have an edge in common. Returns false if an edge has

@@ -1,8 +1,10 @@
 // Removal of the common parts of faces in one plane. For each side of an edge, the faces that cover
 // that side are known. Of m faces with an even id and n with an odd id that cover a point, |m - n|
 // remain there. An edge where a face remains on one side only is part of the outline of that face.
+// Where outlines may cross themselves, each face counts as often as it winds about the point.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "engine/base/trigonometry.h"
@@ -114,10 +116,10 @@ class ContourTracer {
 /// Finds the remaining parts of the faces in one plane.
 class CommonRemover {
  public:
-  CommonRemover(PieceSurface& surface, const WallPlane& plane)
+  CommonRemover(PieceSurface& surface, const WallPlane& plane, bool cover_repeatedly)
       : surface_(surface),
         plane_(plane),
-        outlines_(plane.faces.size()),
+        cover_repeatedly_(cover_repeatedly),
         boxes_(plane.faces.size()) {
     const Vec3 x = plane.normal.unitOrthogonal(), y = plane.normal.cross(x);
     for (std::uint32_t i = 0; i < plane.faces.size(); ++i) {
@@ -135,10 +137,8 @@ class CommonRemover {
   }
 
   bool run() {
-    for (const auto& [edge, uses] : edges_) add_outline_edges(edge, uses);
-    for (std::uint32_t i = 0; i < plane_.faces.size(); ++i) {
-      if (!replace(i)) return false;
-    }
+    if (!trace_outlines()) return false;
+    for (std::uint32_t i = 0; i < plane_.faces.size(); ++i) replace(i);
     return true;
   }
 
@@ -153,71 +153,104 @@ class CommonRemover {
     uses.back().count += from == edge[0] ? 1 : -1;
   }
 
-  /// Returns true if a face covers a point, which must not be on an edge of the face.
-  bool covers(std::uint32_t i, const Vec2& point) const {
-    bool inside = false;
-    for (const PieceSurface::Contour& contour : face(i).contours) {
-      for (std::size_t c = 0; c < contour.size(); ++c) {
-        const Vec2& a = points_2d_.at(contour[c].point);
-        const Vec2& b = points_2d_.at(contour[c + 1 < contour.size() ? c + 1 : 0].point);
-        if ((a.y() > point.y()) == (b.y() > point.y())) continue;
-        const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-        if (x > point.x()) inside = !inside;
-      }
+  /// Finds the contours of what remains of each face. Returns false if one is not closed.
+  bool trace_outlines() {
+    outlines_.assign(plane_.faces.size(), {});
+    contours_.assign(plane_.faces.size(), {});
+    for (const auto& [edge, uses] : edges_) add_outline_edges(edge, uses);
+    for (std::uint32_t i = 0; i < plane_.faces.size(); ++i) {
+      if (outlines_[i].empty() || is_unchanged(i)) continue;
+      contours_[i] = ContourTracer(outlines_[i], points_2d_, is_odd(i)).run();
+      if (contours_[i].empty()) return false;
     }
-    return inside;
+    return true;
   }
 
+  /// Returns how often a face winds about a point beside the middle of an edge, seen from its
+  /// front: above the middle if the edge is horizontal, otherwise to its right.
+  int winding_beside(std::uint32_t i, const PointPair& edge, const Vec2& middle) const {
+    int turns = 0;
+    for (const PieceSurface::Contour& contour : face(i).contours) {
+      for (std::size_t c = 0; c < contour.size(); ++c) {
+        const std::uint32_t from = contour[c].point;
+        const std::uint32_t to = contour[c + 1 < contour.size() ? c + 1 : 0].point;
+        const Vec2 &a = points_2d_.at(from), &b = points_2d_.at(to);
+        if ((a.y() > middle.y()) == (b.y() > middle.y()) || point_pair(from, to) == edge) continue;
+        const double x = a.x() + (middle.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+        if (x > middle.x()) turns += b.y() > a.y() ? 1 : -1;
+      }
+    }
+    return is_odd(i) ? -turns : turns;
+  }
+
+  /// A face and how often it covers a place; negative if it covers that with its back.
+  struct Cover {
+    std::uint32_t face = 0;
+    int times = 0;
+  };
+
   /// Returns the faces that cover the left and the right side of an edge, directed from its first
-  /// to its second point and seen from the side to which the even faces' normals point.
-  std::array<std::vector<std::uint32_t>, 2> covering(const PointPair& edge,
-                                                     const std::vector<EdgeUse>& uses) const {
-    std::array<std::vector<std::uint32_t>, 2> sides;
-    const Vec2 middle = 0.5 * (points_2d_.at(edge[0]) + points_2d_.at(edge[1]));
+  /// to its second point and seen from the side to which the even faces' normals point. A face
+  /// covers one place once, unless `cover_repeatedly_` is set, as outlines may cross themselves.
+  std::array<std::vector<Cover>, 2> covering(const PointPair& edge,
+                                             const std::vector<EdgeUse>& uses) const {
+    std::array<std::vector<Cover>, 2> sides;
+    const Vec2 &first = points_2d_.at(edge[0]), &second = points_2d_.at(edge[1]);
+    const Vec2 middle = 0.5 * (first + second);
+    const bool is_left = first.y() == second.y() ? first.x() < second.x() : first.y() > second.y();
     auto use = uses.begin();
     for (std::uint32_t i = 0; i < plane_.faces.size(); ++i) {
+      int more_on_left = 0;
       if (use != uses.end() && use->face == i) {
-        const int count = is_odd(i) ? -use->count : use->count;
+        more_on_left = is_odd(i) ? -use->count : use->count;
         ++use;
-        if (count != 0) {
-          sides[count > 0 ? 0 : 1].push_back(i);
-          continue;
-        }
       } else if (!boxes_[i].contains(middle)) {
         continue;
       }
-      if (!covers(i, middle)) continue;
-      sides[0].push_back(i);
-      sides[1].push_back(i);
+      Cover left{i, 0}, right{i, 0};
+      if (cover_repeatedly_) {
+        const int beside = winding_beside(i, edge, middle);
+        left.times = is_left ? beside : beside + more_on_left;
+        right.times = left.times - more_on_left;
+      } else if (more_on_left != 0) {
+        (more_on_left > 0 ? left : right).times = 1;
+      } else {
+        left.times = right.times = winding_beside(i, edge, middle) % 2 != 0 ? 1 : 0;
+      }
+      if (left.times != 0) sides[0].push_back(left);
+      if (right.times != 0) sides[1].push_back(right);
     }
     return sides;
   }
 
-  /// Returns the faces that remain of those that cover a point.
-  std::vector<std::uint32_t> remaining(const std::vector<std::uint32_t>& covering) const {
-    std::array<std::vector<std::uint32_t>, 2> by_name;
-    for (const std::uint32_t i : covering) by_name[is_odd(i) ? 1 : 0].push_back(i);
-    const bool more_odd = by_name[1].size() > by_name[0].size();
-    std::vector<std::uint32_t> left = by_name[more_odd ? 1 : 0];
-    left.resize(left.size() - by_name[more_odd ? 0 : 1].size());
+  /// Returns the faces that remain of those that cover a place: fronts cancel opposite fronts.
+  std::vector<Cover> remaining(const std::vector<Cover>& covering) const {
+    const auto is_up = [&](const Cover& cover) { return is_odd(cover.face) != (cover.times > 0); };
+    int up = 0;
+    for (const Cover& cover : covering)
+      up += is_up(cover) ? std::abs(cover.times) : -std::abs(cover.times);
+    std::vector<Cover> left;
+    for (const Cover& cover : covering) {
+      if (up == 0 || is_up(cover) != (up > 0)) continue;
+      const int times = std::min(std::abs(cover.times), std::abs(up));
+      left.push_back({cover.face, cover.times > 0 ? times : -times});
+      up -= up > 0 ? times : -times;
+    }
     return left;
   }
 
-  /// Adds an edge to the outlines of the faces that remain on one side of it only.
+  /// Adds an edge to the outlines of the faces that remain on one side of it more often.
   void add_outline_edges(const PointPair& edge, const std::vector<EdgeUse>& uses) {
     const auto sides = covering(edge, uses);
-    const std::vector<std::uint32_t> on_left = remaining(sides[0]), on_right = remaining(sides[1]);
-    const auto add = [&](const std::vector<std::uint32_t>& here,
-                         const std::vector<std::uint32_t>& there, bool forward) {
-      for (const std::uint32_t i : here) {
-        if (std::find(there.begin(), there.end(), i) != there.end()) continue;
-        const bool along = forward != is_odd(i);
-        outlines_[i].push_back(along ? DirectedEdge{edge[0], edge[1]}
-                                     : DirectedEdge{edge[1], edge[0]});
-      }
-    };
-    add(on_left, on_right, true);
-    add(on_right, on_left, false);
+    std::map<std::uint32_t, int> more_on_left;
+    for (const Cover& cover : remaining(sides[0])) more_on_left[cover.face] += cover.times;
+    for (const Cover& cover : remaining(sides[1])) more_on_left[cover.face] -= cover.times;
+    for (const auto& [i, more] : more_on_left) {
+      const bool along = (more > 0) != is_odd(i);
+      const DirectedEdge directed =
+          along ? DirectedEdge{edge[0], edge[1]} : DirectedEdge{edge[1], edge[0]};
+      outlines_[i].insert(outlines_[i].end(), static_cast<std::size_t>(std::abs(more)), directed);
+    }
   }
 
   /// Returns true if the remaining part of a face is the whole face.
@@ -234,23 +267,18 @@ class CommonRemover {
     return old_edges == new_edges;
   }
 
-  /// Replaces the contours of a face by its outline. Returns false if that is not closed.
-  bool replace(std::uint32_t i) {
-    if (is_unchanged(i)) return true;
+  /// Replaces the contours of a face by those of what remains of it.
+  void replace(std::uint32_t i) {
+    if (is_unchanged(i)) return;
     PieceSurface::Face& of = face(i);
     std::vector<PieceSurface::Contour> contours;
-    if (!outlines_[i].empty()) {
-      const auto traced = ContourTracer(outlines_[i], points_2d_, is_odd(i)).run();
-      if (traced.empty()) return false;
-      for (const std::vector<std::uint32_t>& points : traced) {
-        contours.emplace_back();
-        for (const std::uint32_t point : points) contours.back().push_back(corner(of, point));
-        clean_contour(contours.back());
-        if (contours.back().empty()) contours.pop_back();
-      }
+    for (const std::vector<std::uint32_t>& points : contours_[i]) {
+      contours.emplace_back();
+      for (const std::uint32_t point : points) contours.back().push_back(corner(of, point));
+      clean_contour(contours.back());
+      if (contours.back().empty()) contours.pop_back();
     }
     of.contours = std::move(contours);
-    return true;
   }
 
   /// Returns a face's normal and texture coordinates at a point: those of its corner there, or else
@@ -301,16 +329,18 @@ class CommonRemover {
 
   PieceSurface& surface_;
   const WallPlane& plane_;
+  const bool cover_repeatedly_;              ///< True if a face may cover a place more than once.
   std::map<std::uint32_t, Vec2> points_2d_;  ///< Coordinates of points in the plane.
   std::map<PointPair, std::vector<EdgeUse>> edges_;
   std::vector<std::vector<DirectedEdge>> outlines_;  ///< Remaining outline of each face.
-  std::vector<Eigen::AlignedBox2d> boxes_;           ///< Bounding box of each face.
+  std::vector<std::vector<std::vector<std::uint32_t>>> contours_;  ///< Outlines as contours.
+  std::vector<Eigen::AlignedBox2d> boxes_;                         ///< Bounding box of each face.
 };
 
 }  // namespace
 
-bool remove_common(PieceSurface& surface, const WallPlane& plane) {
-  return CommonRemover(surface, plane).run();
+bool remove_common(PieceSurface& surface, const WallPlane& plane, bool cover_repeatedly) {
+  return CommonRemover(surface, plane, cover_repeatedly).run();
 }
 
 }  // namespace sunder
