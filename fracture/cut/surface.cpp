@@ -145,7 +145,7 @@ class SurfaceCutter {
     for (PolygonMesh& mesh : meshes) {
       const bool alone = meshes.size() == 1;
       const MassProperties solid = alone ? draft.visual_solid : mass_properties(mesh);
-      if (!alone && solid.volume_m3 < floor_m3_) {
+      if (solid.volume_m3 < floor_m3_) {
         // An island that is inside out is no debris: without it the volumes do not add up.
         parts.debris_m3 += std::max(0.0, solid.volume_m3);
         continue;
