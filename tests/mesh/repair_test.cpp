@@ -139,6 +139,20 @@ TEST(Repair, SeparateFacesAreJoined) {
   EXPECT_NEAR(total_volume(repaired), 6, 1e-5);
 }
 
+TEST(Repair, TwinVerticesThatNoEdgeJoinsAreJoined) {
+  RawMesh twice = box();
+  RawMesh moved = box();
+  for (Vec3& vertex : moved.vertices) vertex += Vec3::Constant(1e-8);
+  test::append(twice, moved);
+  const RepairedMesh repaired = repair_mesh(twice, "box");
+  EXPECT_EQ(count_of(repaired, "twin vertices joined"), 8u);
+  EXPECT_EQ(repaired.shells.size(), 1u);
+  EXPECT_NEAR(total_volume(repaired), 6, 1e-7);
+  // Short edges stay.
+  const RawMesh thin = test::make_block(Vec3::Zero(), Vec3(1, 1, 1e-8), false);
+  EXPECT_EQ(count_of(repair_mesh(thin, "plate"), "twin vertices joined"), 0u);
+}
+
 TEST(Repair, FacesAreOrientedConsistentlyAndOutward) {
   RawMesh mesh = box();
   reverse_polygon(mesh, 0);

@@ -47,12 +47,8 @@ std::size_t drop_degenerate_and_duplicate(RawMesh& mesh, Repairs& repairs) {
   return degenerate + duplicate;
 }
 
-/// Tier 1: joins vertices, removes degenerate and duplicate faces, and resolves T-junctions.
-void clean(RawMesh& mesh, double size, Repairs& repairs) {
-  repairs.record("identical vertices joined", join_identical(mesh), true);
-  repairs.record("twin vertices joined",
-                 join_twins(mesh, std::min(kMaxTwinDistance_m, kJoinTolerance * size)));
-  drop_degenerate_and_duplicate(mesh, repairs);
+/// Joins vertices of open edges that are close to others, or to open edges.
+void join_open(RawMesh& mesh, double size, Repairs& repairs) {
   const auto open_vertices = [](const Surface& surface) {
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t c : surface.open_half_edges()) {
@@ -61,7 +57,6 @@ void clean(RawMesh& mesh, double size, Repairs& repairs) {
     }
     return vertices;
   };
-  if (edge_faults(mesh).open == 0) return;
   const std::size_t joined =
       join_close(mesh, open_vertices(pair_edges(mesh)), kJoinTolerance * size);
   repairs.record("close vertices joined", joined);
@@ -70,6 +65,16 @@ void clean(RawMesh& mesh, double size, Repairs& repairs) {
   const std::size_t inserted = join_t_junctions(mesh, open, kJoinTolerance * size);
   repairs.record("T-junctions fixed (vertices inserted into edges)", inserted);
   if (inserted > 0) drop_degenerate_and_duplicate(mesh, repairs);
+}
+
+/// Tier 1: joins vertices, removes degenerate and duplicate faces, and resolves T-junctions.
+void clean(RawMesh& mesh, double size, Repairs& repairs) {
+  repairs.record("identical vertices joined", join_identical(mesh), true);
+  drop_degenerate_and_duplicate(mesh, repairs);
+  if (edge_faults(mesh).open > 0) join_open(mesh, size, repairs);
+  const std::size_t twins = join_twins(mesh, std::min(kMaxTwinDistance_m, kJoinTolerance * size));
+  repairs.record("twin vertices joined", twins);
+  if (twins > 0) drop_degenerate_and_duplicate(mesh, repairs);
 }
 
 /// Tier 2: orients neighbours consistently and separates solids that touch.

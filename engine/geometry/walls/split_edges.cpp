@@ -50,7 +50,6 @@ class EdgeSplitter {
 
   void find_splits(const WallPlane& plane) {
     PlaneEdges in = edges_in(surface_, plane);
-    crossings_.clear();
     choose_axis(in);
     find_points_on_edges(in);
     find_crossings(in, plane.normal);
@@ -135,7 +134,7 @@ class EdgeSplitter {
     splits_[g].insert(point);
   }
 
-  /// Returns the point within the tolerance that splits either edge or is a known crossing, or a
+  /// Returns the point within the tolerance that splits either edge, any other point there, or a
   /// new point.
   std::uint32_t crossing_at(const Vec3& place, const PointPair& e, const PointPair& g) {
     const auto is_here = [&](std::uint32_t known) {
@@ -147,11 +146,12 @@ class EdgeSplitter {
       const auto known = std::ranges::find_if(points->second, is_here);
       if (known != points->second.end()) return *known;
     }
-    const auto known = std::ranges::find_if(crossings_, is_here);
-    if (known != crossings_.end()) return *known;
-    crossings_.push_back(static_cast<std::uint32_t>(surface_.points.size()));
+    const auto count = static_cast<std::uint32_t>(surface_.points.size());
+    for (std::uint32_t known = 0; known < count; ++known) {
+      if (is_here(known)) return known;
+    }
     surface_.points.push_back(place);
-    return crossings_.back();
+    return count;
   }
 
   void apply(PieceSurface::Contour& contour) {
@@ -195,7 +195,6 @@ class EdgeSplitter {
   const double tolerance_m_;
   int axis_ = 0;
   Splits splits_;
-  std::vector<std::uint32_t> crossings_;  ///< Crossing points of the current plane.
 };
 
 }  // namespace
