@@ -5,8 +5,8 @@
 
 A piece is a node of a GLB file, or an OBJ file of a folder. Vertices with equal coordinates are
 one vertex, as for importers that merge vertices; coordinates are not rounded. Each edge of a piece
-has to be in two triangles that run through it in opposite directions, each piece has to enclose a
-positive volume, and the volumes have to sum to --volume. Prints one line of JSON; exit code 1 if a
+has to be in two triangles that run through it in opposite directions, no triangle may have equal
+corners, each piece has to enclose a positive volume, and the volumes have to sum to --volume. Prints one line of JSON; exit code 1 if a
 check fails.
 """
 
@@ -134,7 +134,8 @@ def main():
         found.pop("box_m3")
         for key, value in found.items():
             total[key] = total.get(key, 0) + value
-        if found["in_one_face"] or found["in_more_faces"] or found["unbalanced"]:
+        if found["in_one_face"] or found["in_more_faces"] or found["unbalanced"] or \
+                found["collapsed_triangles"]:
             total["bad_pieces"].append(name)
         if not volumes[-1] > 0:
             total["negative"].append(name)

@@ -36,9 +36,10 @@ void expect_closed(const std::string& mesh, const std::string& pattern, const ch
 TEST(Exports, HaveEveryEdgeInTwoFacesAndTheVolumeOfThePieces) {
   for (const std::string name : {"frame", "knot", "pebble", "ring", "star"}) {
     const std::string file = test::made_file(name).string();
-    for (const char* pattern : {"voronoi:20", "slabs:8", "grid:3"})
+    for (const char* pattern : {"voronoi:20", "slabs:8", "grid:3", "web:6x12"})
       expect_closed(file, pattern, "pieces/", 1e-12);
-    expect_closed(file, "voronoi:20", "pieces.glb", 1e-6);
+    for (const char* pattern : {"voronoi:20", "web:6x12"})
+      expect_closed(file, pattern, "pieces.glb", 1e-6);
   }
 }
 

@@ -102,22 +102,31 @@ class GlbWriter {
     return true;
   }
 
+  /// Adds triangles, except those whose corners are equal in single precision.
   static void add_triangles(const Model::Shell& shell, const ShellTriangles& triangles,
                             const std::vector<std::uint32_t>& indices, bool v_from_bottom,
                             const Model::Part& part, Primitive& primitive) {
     constexpr std::uint32_t kNone = 0xffffffff;
+    const auto position = [&](std::uint32_t vertex) -> Vec3f {
+      const std::uint32_t point = triangles.vertices[vertex].point;
+      return Vec3(shell.mesh->vertices[point] - part.center).cast<float>();
+    };
     std::vector<std::uint32_t> new_of_old(triangles.vertices.size(), kNone);
-    for (const std::uint32_t old : indices) {
-      if (new_of_old[old] == kNone) {
-        const ShellTriangles::Vertex& vertex = triangles.vertices[old];
-        new_of_old[old] = static_cast<std::uint32_t>(primitive.positions.size());
-        const Vec3 position = shell.mesh->vertices[vertex.point] - part.center;
-        primitive.positions.push_back(position.cast<float>());
-        primitive.normals.push_back(vertex.normal);
-        primitive.uvs.push_back(v_from_bottom ? Vec2f(vertex.uv.x(), 1 - vertex.uv.y())
-                                              : vertex.uv);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      const Vec3f a = position(indices[i]), b = position(indices[i + 1]),
+                  c = position(indices[i + 2]);
+      if (a == b || b == c || c == a) continue;
+      for (const std::uint32_t old : {indices[i], indices[i + 1], indices[i + 2]}) {
+        if (new_of_old[old] == kNone) {
+          const ShellTriangles::Vertex& vertex = triangles.vertices[old];
+          new_of_old[old] = static_cast<std::uint32_t>(primitive.positions.size());
+          primitive.positions.push_back(position(old));
+          primitive.normals.push_back(vertex.normal);
+          primitive.uvs.push_back(v_from_bottom ? Vec2f(vertex.uv.x(), 1 - vertex.uv.y())
+                                                : vertex.uv);
+        }
+        primitive.indices.push_back(new_of_old[old]);
       }
-      primitive.indices.push_back(new_of_old[old]);
     }
   }
 
