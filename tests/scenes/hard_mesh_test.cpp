@@ -48,6 +48,16 @@ void write_ball(const std::string& file, std::uint32_t around, double noise, dou
   }
 }
 
+/// Writes a unit ball, a vertex of which is moved through the other side.
+void write_pierced_ball(const std::string& file, std::uint32_t around) {
+  write_ball(file, around, 0);
+  std::ifstream in(file);
+  std::string text, line;
+  std::getline(in, line);  // the pole, at height 1
+  while (std::getline(in, line)) text += line + "\n";
+  std::ofstream(file) << "v 0.1 -1.4 0.05\n" << text;
+}
+
 struct Box {
   Vec3 low, high;
   bool from_inside = false;
@@ -142,6 +152,55 @@ TEST(HardMeshes, NoPieceHasANegativeVolume) {
     EXPECT_EQ(count(json, "/negative_volumes"), 0) << i;
     EXPECT_EQ(count(json, "/open_edges"), 0) << i;
   }
+}
+
+TEST(HardMeshes, ACubeThatOccursTwiceIsOneSolid) {
+  const Folder folder;
+  const std::string file = folder / "cubes.obj";
+  const Vec3 step = Vec3::Constant(1e-8);
+  write_boxes(file, {{Vec3::Zero(), Vec3::Ones()}, {step, Vec3::Ones() + step}});
+  const Figures json = broken(file);
+  EXPECT_EQ(count(json, "/pieces"), 20);
+  EXPECT_EQ(count(json, "/watertight_pieces"), 20);
+  EXPECT_EQ(count(json, "/convexes"), 20);
+  EXPECT_NEAR(std::get<double>(json.at("/volume_out_m3")), 1, 1e-7);
+}
+
+TEST(HardMeshes, APartThatIsInsideOutIsNotHiddenAsNegativeDebris) {
+  const Folder folder;
+  const std::string file = folder / "pierced.obj";
+  // A vertex of the ball is moved through its other side.
+  write_pierced_ball(file, 24);
+  for (const std::string pattern : {"voronoi:8", "voronoi:20", "slabs:8"}) {
+    const Outcome outcome =
+        sunder("fracture " + file + " --pattern " + pattern + " --quiet --json -");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Figures json = parse_figures(outcome.out, file);
+    EXPECT_GE(std::get<double>(json.at("/debris_volume_m3")), 0) << pattern;
+    EXPECT_LE(std::get<double>(json.at("/volume_error")), 1e-12) << pattern;
+    EXPECT_NEAR(std::get<double>(json.at("/volume_out_m3")),
+                std::get<double>(json.at("/volume_in_m3")), 1e-9)
+        << pattern;
+    EXPECT_EQ(count(json, "/watertight_pieces"), count(json, "/pieces")) << pattern;
+  }
+}
+
+TEST(HardMeshes, TheVolumeOfADecompositionIsThatOfTheUnion) {
+  const Folder folder;
+  const std::string file = folder / "boxes.obj";
+  const auto decomposed = [&](const std::vector<Box>& boxes) {
+    write_boxes(file, boxes);
+    const Outcome outcome = sunder("vacd " + file + " --quiet --json -");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return parse_figures(outcome.out, file);
+  };
+  const Box large = {Vec3::Zero(), Vec3::Constant(3)};
+  const Figures nested = decomposed({large, {Vec3::Ones(), Vec3::Constant(2)}});
+  EXPECT_NEAR(std::get<double>(nested.at("/volume_m3")), 27, 1e-12);
+  EXPECT_NEAR(std::get<double>(nested.at("/surface_volume_m3")), 28, 1e-12);
+  EXPECT_EQ(std::get<std::string>(nested.at("/volume_method")), "exact");
+  const Figures crossing = decomposed({large, {Vec3(1, 1, -1), Vec3(2, 2, 4)}});
+  EXPECT_NEAR(std::get<double>(crossing.at("/volume_m3")), 29, 1e-12);
 }
 
 // With the usual number of nodes 1.5 to 6.4 % of the volume of these meshes is not broken.
