@@ -55,6 +55,9 @@ set_tests_properties(Extremes.AHundredThousandBodiesGiveTheSameBitsForAnyNumberO
   PROPERTIES COST 7)
 set_tests_properties(Trace.WorkOfOtherThreadsInALoopHasTheNameOfTheEnclosingSpan PROPERTIES COST 7)
 set_tests_properties(Golden.TheReportedCommandsMakeTheSameGoldenAgain PROPERTIES COST 7)
+set_tests_properties(SoundPieces.OfFiveHundredGeneratedMeshes
+  PROPERTIES COST 36 LABELS "unit;long")
+set_tests_properties(SoundPieces.OfRealMeshes PROPERTIES COST 20 LABELS "unit;long")
 set_tests_properties(Vacd.OfRealMeshesKeepsItsInvariants PROPERTIES COST 7)
 set_tests_properties(Exports.OfDamagedMeshesHaveEveryEdgeInTwoFaces PROPERTIES COST 7)
 set_tests_properties(Bending.NoJointStaysAtARemovedBody PROPERTIES COST 6)
