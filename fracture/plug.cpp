@@ -114,15 +114,18 @@ std::optional<Plug> make_plug(const Material& material, const StructureImpact& h
   if (area_m2 * plug.depth_m > kMaxPlugShare * hit.volume_m3) return {};
   for (Vec2& corner : plug.section_m) corner -= middle_m;
   X_RP = {hit.point_R + axes * Vec3(middle_m.x(), 0, middle_m.y()), Quat(axes).normalized()};
-  plug.solid_m = plug.depth_m;
+  plug.solid_m = hit.path_m > 0 ? hit.path_m : plug.depth_m;
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
-  plug.energy_J = perforation_energy_J(material, width_m, plug.depth_m, hit.striker_kg);
+  // The nearest face decides what the solid bears; what is sheared is longer by the slant.
+  plug.energy_J =
+      perforation_energy_J(material, width_m, hit.cosine * plug.solid_m, hit.striker_kg) /
+      hit.cosine;
   plug.through = plug.energy_J <= kMaxPerforationShare * hit.energy_J;
   // A solid without a pattern cannot break as a whole, so it lets a striker through near an edge.
   const bool confined = hit.confined || material.pattern.kind == PatternSpec::Kind::kNone;
   if (plug.through ? !confined : !hit.held) return {};
   if (!plug.through && !become_crater(hit, width_m, area_m2, plug)) return {};
-  plug.mass_kg = material.density_kg_m3 * area_m2 * plug.depth_m;
+  plug.mass_kg = material.density_kg_m3 * area_m2 * (plug.through ? plug.solid_m : plug.depth_m);
   if (plug.through) plug.clearance = kHoleClearance;
   plug.sides_m2 = plug.clearance * perimeter_m(plug.section_m) * plug.depth_m;
   const double smaller_m3 = area_m2 * std::min(plug.depth_m, width_m);

@@ -55,6 +55,8 @@ struct StructureImpact {
   double speed_m_s = 0;              ///< Closing speed of the striker; 0: unknown.
   double striker_kg = 0;             ///< Effective mass of the striker.
   double thickness_m = 0;  ///< Thickness of the solid along `direction_R` behind the point.
+  double path_m = 0;       ///< Length of the striker's path in the solid; 0: the thickness.
+  double cosine = 1;       ///< Between the path and the normal of the struck face.
   double volume_m3 = 0;    ///< Volume of the solid.
   double reached_m3 = 0;   ///< Volume of the solid's convexes within the impact radius.
   bool held = true;        ///< True if the solid is anchored.

@@ -17,6 +17,18 @@ namespace {
 // Gap between two convexes on a ray, as a fraction of the length so far, below which they are one.
 constexpr double kGap = 1e-3;
 
+/// Shortens a stretch of a ray, from `enters` to `leaves`, to the part inside a convex polyhedron;
+/// it ends before it begins if the ray misses.
+void clip(const ConvexPolyhedron& solid, const Vec3& from, const Vec3& direction, double& enters,
+          double& leaves) {
+  for (const ConvexPolyhedron::Face& face : solid.faces) {
+    const double away = face.plane.normal.dot(direction), depth = face.plane.distance(from);
+    if (away > 0) leaves = std::min(leaves, -depth / away);
+    if (away < 0) enters = std::max(enters, -depth / away);
+    if (away == 0 && depth > 0) leaves = enters;
+  }
+}
+
 template <class T>
 std::size_t bytes(const std::vector<T>& vector) {
   return vector.capacity() * sizeof(T);
@@ -262,12 +274,7 @@ double thickness_along(const Structure& structure, const Vec3& point_R, const Ve
   std::vector<std::pair<double, double>> spans;  // of the ray within convexes
   for (const ConvexSlot slot : structure.within(point_R, most_m)) {
     double enters = -most_m, leaves = most_m;
-    for (const ConvexPolyhedron::Face& face : structure.convex(slot)->polyhedron.faces) {
-      const double away = face.plane.normal.dot(direction_R), depth = face.plane.distance(point_R);
-      if (away > 0) leaves = std::min(leaves, -depth / away);
-      if (away < 0) enters = std::max(enters, -depth / away);
-      if (away == 0 && depth > 0) leaves = enters;
-    }
+    clip(structure.convex(slot)->polyhedron, point_R, direction_R, enters, leaves);
     if (leaves > enters && leaves > 0) spans.emplace_back(enters, leaves);
   }
   std::ranges::sort(spans);
@@ -275,6 +282,26 @@ double thickness_along(const Structure& structure, const Vec3& point_R, const Ve
   for (const auto& [enters, leaves] : spans)
     if (end == 0 || enters <= end * (1 + kGap)) end = std::max(end, leaves);
   return end;
+}
+
+double path_through(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
+                    double back_m, double most_m) {
+  std::vector<std::pair<double, double>> spans;
+  for (const ConvexSlot slot : structure.within(point_R, std::max(back_m, most_m))) {
+    double enters = -back_m, leaves = most_m;
+    clip(structure.convex(slot)->polyhedron, point_R, direction_R, enters, leaves);
+    if (leaves > enters) spans.emplace_back(enters, leaves);
+  }
+  std::ranges::sort(spans);
+  double begin = -back_m, end = -back_m;
+  for (const auto& [enters, leaves] : spans) {
+    if (enters > end + kGap * most_m) {
+      if (end > 0) break;
+      begin = enters;
+    }
+    end = std::max(end, leaves);
+  }
+  return end > 0 ? end - begin : 0;
 }
 
 }  // namespace sunder

@@ -132,4 +132,9 @@ ConvexSlot nearest(const Structure& structure, const Vec3& point_R);
 double thickness_along(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
                        double most_m);
 
+/// Returns the length of the first stretch of a ray inside a structure that ends behind `point_R`.
+/// The ray begins `back_m` before the point and ends `most_m` behind it; 0 if it misses.
+double path_through(const Structure& structure, const Vec3& point_R, const Vec3& direction_R,
+                    double back_m, double most_m);
+
 }  // namespace sunder

@@ -61,7 +61,7 @@ inline constexpr double kMaxStressBreakShare = 0.9;
 
 /// Minimum cosine between a striker's relative velocity and the contact normal for a path along
 /// that velocity; other strikers glance.
-inline constexpr double kMinPathCosine = 0.5;
+inline constexpr double kMinPathCosine = 0.4;
 /// Number of corners of the cross-section of a ball.
 inline constexpr int kRoundSectionCorners = 8;
 inline constexpr std::size_t kMaxSectionCorners = 8;  ///< Maximum corners of another cross-section.

@@ -124,7 +124,7 @@ bool carry_out_breaks(WorldState& world, const Breaker& breaker, Trial& trial,
     const Outcome outcome = outcome_of(world, planned, pieces);
     record_outcome(world, planned, outcome);
     if (outcome != Outcome::kBreaks) continue;
-    wanted.push_back({planned.load, planned.needed_J});
+    wanted.push_back({planned.load, planned.along_normal_J()});
     pieces += planned.edit.loose.pieces.size();
   }
   const std::vector<std::uint32_t> broken = trial.probe->release(wanted);

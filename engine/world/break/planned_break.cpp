@@ -53,7 +53,7 @@ double area_m2(const PlannedBreak& planned) {
 /// energy suffices, and the impact is too fast for waves to carry the load away.
 bool breaks_locally(const WorldState& world, const Structure& structure,
                     const PlannedBreak& planned) {
-  if (!planned.by_pattern || !planned.edit.changed || planned.needed_J >= planned.impact.energy_J)
+  if (!planned.by_pattern || !planned.edit.changed || planned.along_normal_J() >= planned.impact.energy_J)
     return false;
   const Convex& convex = *structure.convex(planned.impact.convex);
   return planned.command.plug ||
@@ -247,13 +247,25 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
     oblique.section_R.clear();
     add_striker(world, planned, actor, X_WB, path_W, oblique);
     oblique.confined = hit.confined;
+    oblique.cosine = path_W.dot(impact.direction_W);
+    oblique.energy_J /= oblique.cosine * oblique.cosine;
+    // The plug ends where the last of its sides leaves the solid.
+    oblique.thickness_m +=
+        reach_of(oblique) * std::sqrt(1 - oblique.cosine * oblique.cosine) / oblique.cosine;
+    oblique.path_m = path_behind(actor.structure, oblique.section_R, oblique.point_R,
+                                 oblique.direction_R, reach_of(oblique),
+                                 kMaxPerforatedReaches * reach_of(oblique));
     BreakCommand command = breaker.command(convex, *world.materials, oblique, event, seed);
-    if (goes_through(command)) hit = std::move(oblique), planned.command = std::move(command);
+    if (goes_through(command)) {
+      hit = std::move(oblique), planned.command = std::move(command);
+      planned.share_along_normal = hit.cosine * hit.cosine;
+    }
   }
   if (impact.pattern) {
     planned.command.pattern = *impact.pattern;
     planned.command.plug.reset();
   }
+  planned.path_W = X_WB.rotation * hit.direction_R;
   planned.swept = {std::move(hit.section_R), hit.point_R, hit.direction_R, hit.thickness_m};
 }
 

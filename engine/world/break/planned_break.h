@@ -32,6 +32,7 @@ struct PlannedBreak {
   std::uint32_t striker = kNoActorKey;  ///< Key of the body that strikes.
   double speed_m_s = 0;                 ///< Closing speed of the striker; 0: unknown.
   Vec3 path_m_s_W = Vec3::Zero();       ///< Velocity of the striker relative to the actor.
+  Vec3 path_W = Vec3::UnitY();          ///< Unit; the striker's path through the actor.
   double time_s = 0;                    ///< Time of the impact since the start of the step.
   double impulse_Ns = 0;                ///< Sum over the contacts that load the actor.
   std::vector<AppliedForce> impulses;   ///< All impulses on the actor, N·s in place of N.
@@ -48,11 +49,15 @@ struct PlannedBreak {
   double plan_ms = 0;
   double needed_J = 0;    ///< Energy of the cracks, or of the plug if greater.
   double crushing_J = 0;  ///< Part of needed_J beyond the cracks.
+  /// Part of needed_J that impulses along the contact normal take; sides of a slanted hole take the
+  /// rest.
+  double share_along_normal = 1;
   bool breaks = false;    ///< The energy of the impact suffices.
   bool at_bonds = false;  ///< The chosen mode is by stress.
 
   /// Effective mass of the striker, from its work and speed.
   double striker_kg() const { return 2 * impact.energy_J / (speed_m_s * speed_m_s); }
+  double along_normal_J() const { return share_along_normal * needed_J; }
   /// True if the break only makes plastic hinges, and no cracks.
   bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };

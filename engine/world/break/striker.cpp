@@ -71,21 +71,35 @@ double inverse_effective_mass(const Actor& actor, const BodyState& state, const 
   return 1 / actor.weight.mass_kg + turn_B.dot(actor.weight.inertia_R.inverse() * turn_B);
 }
 
+/// Returns the median length over the rays, from a point and from halfway to each corner of a
+/// section around it, that hit a structure.
+template <class LengthOfRay>
+double median_behind(const std::vector<Vec3>& section_R, const Vec3& point_R,
+                     const LengthOfRay& length_of) {
+  std::vector<double> all_m = {length_of(point_R)};
+  for (const Vec3& corner : section_R) all_m.push_back(length_of(0.5 * (point_R + corner)));
+  std::erase(all_m, 0);
+  if (all_m.empty()) return 0;
+  const auto middle = all_m.begin() + static_cast<std::ptrdiff_t>(all_m.size() / 2);
+  std::ranges::nth_element(all_m, middle);
+  return *middle;
+}
+
 /// Turns the velocity of a striker relative to the rest of a solid into the direction of the path,
-/// as the sides of the hole guide the striker, by an impulse between the two that changes no
-/// energy. `rest` is null for a held solid. Returns the change of kinetic energy, which is
-/// rounding.
+/// as the sides of the hole guide the striker, and takes the part of the work that the impulses of
+/// the contacts have not. `rest` is null for a held solid. Returns the change of kinetic energy.
 double keep_on_path(WorldState& world, const PlannedBreak& planned, const Actor& striker,
                     const Actor* rest, const Vec3& path_W) {
   const BodyStates states = world.physics->states();
   const Vec3 at_W = states[striker.body].X_WB.position;
   Vec3 relative_m_s = states[striker.body].velocity_W;
   if (rest) relative_m_s -= states[rest->body].field()(at_W);
-  const Vec3 change_m_s = relative_m_s.norm() * path_W - relative_m_s;
-  if (change_m_s.isZero(0)) return 0;
   double inverse_kg = 1 / striker.weight.mass_kg;
-  if (rest)
-    inverse_kg += inverse_effective_mass(*rest, states[rest->body], at_W, change_m_s.normalized());
+  if (rest) inverse_kg += inverse_effective_mass(*rest, states[rest->body], at_W, path_W);
+  const double left_m2_s2 =
+      relative_m_s.squaredNorm() - 2 * inverse_kg * (planned.needed_J - planned.along_normal_J());
+  const Vec3 change_m_s = std::sqrt(std::max(0.0, left_m2_s2)) * path_W - relative_m_s;
+  if (change_m_s.isZero(0)) return 0;
   const Vec3 impulse_Ns = 1 / inverse_kg * change_m_s;
   // The shift keeps the position that the body has at the time of the impact.
   const auto push = [&](const Actor& actor, const Vec3& by_Ns) {
@@ -149,14 +163,16 @@ std::vector<Vec3> cross_section(const WorldState& world, const Actor& actor, con
 
 double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,
                         const Vec3& point_R, const Vec3& direction_R, double most_m) {
-  std::vector<double> all_m = {thickness_along(structure, point_R, direction_R, most_m)};
-  for (const Vec3& corner : section_R)
-    all_m.push_back(thickness_along(structure, 0.5 * (point_R + corner), direction_R, most_m));
-  std::erase(all_m, 0);
-  if (all_m.empty()) return 0;
-  const auto middle = all_m.begin() + static_cast<std::ptrdiff_t>(all_m.size() / 2);
-  std::ranges::nth_element(all_m, middle);
-  return *middle;
+  return median_behind(section_R, point_R, [&](const Vec3& from_R) {
+    return thickness_along(structure, from_R, direction_R, most_m);
+  });
+}
+
+double path_behind(const Structure& structure, const std::vector<Vec3>& section_R,
+                   const Vec3& point_R, const Vec3& direction_R, double back_m, double most_m) {
+  return median_behind(section_R, point_R, [&](const Vec3& from_R) {
+    return path_through(structure, from_R, direction_R, back_m, most_m);
+  });
 }
 
 double confinement(const Structure& structure, const std::vector<Vec3>& section_R,
@@ -183,11 +199,9 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   const Actor* rest = nullptr;  // the largest piece of a free solid beside the path
   double plug_kg = 0;
   Vec3 moment_kgm = Vec3::Zero();
-  Vec3 axis_W = planned.impact.direction_W;
+  const Vec3& axis_W = planned.path_W;
   double at_rest_m_s = 0;
   const bool breaks_at_bonds = planned.command.pattern.kind == PatternSpec::Kind::kNone;
-  const Vec3 axis_R =
-      plug ? Vec3(planned.command.X_RP.rotation * Vec3::UnitY()) : planned.swept.direction_R;
   const auto is_in_path = [&](const Actor& piece) {
     if (!plug) return is_in_prism(planned.swept, piece.weight.com_R, piece.volume_m3);
     if (breaks_at_bonds) return piece.structure.size() == 1;
@@ -202,7 +216,6 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
     pieces.push_back(&actor);
     plug_kg += actor.weight.mass_kg;
     moment_kgm += actor.weight.mass_kg * states[actor.body].X_WB.position;
-    axis_W = rest_pose(actor, states[actor.body].X_WB).rotation * axis_R;
     at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
   }
   // Debris of a held solid takes its share of the momentum; debris of a free solid moves as the
@@ -213,22 +226,21 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   plug_kg += debris_kg;
   if (!(plug_kg > 0)) return;
   const Vec3 middle_W = pieces.empty() ? planned.impact.point_W : Vec3(moment_kgm / pieces_kg);
-  const BodyState state = states[striker->body];
+  double gain_J = 0;
+  if (plug && !striker->is_kinematic && (is_held || rest))
+    gain_J += keep_on_path(world, planned, *striker, is_held ? nullptr : rest, axis_W);
+  const BodyState state = world.physics->state(striker->body);
   const double closing_m_s = state.field()(middle_W).dot(axis_W) - at_rest_m_s / plug_kg;
   if (!(closing_m_s > 0)) return;
   const double gain_m_s =
       closing_m_s / (1 + plug_kg * inverse_effective_mass(*striker, state, middle_W, axis_W));
-  double gain_J = 0;
   for (const Actor* piece : pieces) {
     BodyState moved = world.physics->state(piece->body);
     moved.velocity_W += gain_m_s * axis_W;
     gain_J += move_actor(world, *piece, moved);
   }
-  if (!striker->is_kinematic) {
+  if (!striker->is_kinematic)
     gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, middle_W);
-    if (plug && (is_held || rest))
-      gain_J += keep_on_path(world, planned, *striker, is_held ? nullptr : rest, axis_W);
-  }
   const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
   EnergyFlows& energy = world.log.report.energy;
   energy.debris += debris_J;

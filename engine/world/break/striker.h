@@ -22,6 +22,11 @@ std::vector<Vec3> cross_section(const WorldState& world, const Actor& actor, con
 double thickness_behind(const Structure& structure, const std::vector<Vec3>& section_R,
                         const Vec3& point_R, const Vec3& direction_R, double most_m);
 
+/// Returns the length of a striker's path in a structure behind a section, a median as above. Rays
+/// begin `back_m` before the section, as a slanted one reaches into the structure.
+double path_behind(const Structure& structure, const std::vector<Vec3>& section_R,
+                   const Vec3& point_R, const Vec3& direction_R, double back_m, double most_m);
+
 /// Returns the share of points around a section, at 1.5 times its width and `depth_m` behind it, at
 /// which a structure has material. A solid with little material around the section cannot be
 /// perforated.

@@ -234,13 +234,9 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
   } else if (fast) {
     flight.turning = !a.facet && reach.spin_m > kTurningMotion * m.size_m;
     meet = flight.to_impact(reach.margin_m, moment, axis);
-    if (meet && moment.time_s > 0 &&
-        b.kind == Kind::kSphere) {  // the normal turns until they touch
-      SeparatingAxis touching = axis;
-      Moment touch = moment;
-      if (flight.to_impact(kBallImpactGap * m.size_m, touch, touching))
-        axis = touching, moment = touch;
-    }
+    // The normal of a ball turns until it touches, or is past an edge.
+    if (meet && b.kind == Kind::kSphere)
+      flight.to_impact(kBallImpactGap * m.size_m, moment, axis);
   }
   const bool by_front = meet && a.facet && !normal_to_surface(a, axis.normal_A);
   if (by_front) {
