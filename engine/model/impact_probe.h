@@ -105,6 +105,9 @@ struct ImpactLoad {
   std::uint32_t striker = 0;  ///< Index of the other body at the largest momentum flux.
   /// Velocity of the striker relative to the body at that contact, if the body were not in the way.
   Vec3 path_m_s_W = Vec3::Zero();
+  /// Indices of the bodies that go with the striker as one, ascending: those that it touches,
+  /// directly or through others, at about its velocity if the body were not in the way.
+  std::vector<std::uint32_t> riders = {};
   double time_s = 0;  ///< Time of the impact since the start of the step.
   /// All simultaneous impulses on the body, supports included.
   std::vector<ProbeImpulse> impulses = {};

@@ -373,9 +373,28 @@ std::vector<ImpactLoad> EventProbe::loads(const ClusterMotion& without) const {
     load.arm_W /= load.impulse_Ns;
     load.direction_W.normalize();
     load.time_s = time_s_;
+    add_riders(without, load);
     add_contact_impulses(load);
   }
   return all;
+}
+
+void EventProbe::add_riders(const ClusterMotion& without, ImpactLoad& load) const {
+  const auto velocity_of = [&](std::uint32_t body) { return without.velocities[body].linear; };
+  const Vec3 striker_m_s = velocity_of(load.striker);
+  const double most_m_s = kMaxRiderSpeed * (striker_m_s - velocity_of(load.body)).norm();
+  std::vector<std::uint32_t> found = {load.striker};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const ProbeContact& c : contacts_) {
+      if (c.rope || (c.a != found[i] && c.b != found[i])) continue;
+      const std::uint32_t other = c.a == found[i] ? c.b : c.a;
+      if (other == load.body || bodies_[other].inverse_mass <= 0) continue;
+      if ((velocity_of(other) - striker_m_s).norm() > most_m_s) continue;
+      if (std::ranges::find(found, other) == found.end()) found.push_back(other);
+    }
+  }
+  load.riders.assign(found.begin() + 1, found.end());
+  std::ranges::sort(load.riders);
 }
 
 /// Adds the impulses of contacts to a load, those of each other body distributed as evenly as their

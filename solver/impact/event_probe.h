@@ -63,6 +63,8 @@ class EventProbe final : public ImpactProbe {
   ClusterMotion solve(const std::vector<std::uint8_t>& removed);
   std::uint32_t body_to_load(const ProbeContact& c) const;
   std::vector<ImpactLoad> loads(const ClusterMotion& without) const;
+  /// Adds the bodies that go with a load's striker.
+  void add_riders(const ClusterMotion& without, ImpactLoad& load) const;
   void add_contact_impulses(ImpactLoad& load) const;
   void add_joint_impulses(ImpactLoad& load) const;
   EnergyDifference energy_difference(const ClusterMotion& without) const;

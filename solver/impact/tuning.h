@@ -24,6 +24,10 @@ inline constexpr double kMinEventEnergy = 0.1;
 /// gravity.
 inline constexpr double kHangingAcceleration = 1e-4;
 
+/// Maximum speed of a body relative to a striker, as a fraction of the striker's, at which the two
+/// strike as one.
+inline constexpr double kMaxRiderSpeed = 0.2;
+
 // Solve of a cluster.
 
 /// Compliance of a contact, as a fraction of the inverse mass of the heaviest body: supports share

@@ -34,6 +34,8 @@ void add_impacts(const WorldState& world, Trial& trial) {
     PlannedBreak planned;
     planned.load = i;
     planned.striker = trial.probe->bodies()[load.striker].key;
+    for (const std::uint32_t rider : load.riders)
+      planned.riders.push_back(trial.probe->bodies()[rider].key);
     planned.speed_m_s = load.speed_m_s;
     planned.path_m_s_W = load.path_m_s_W;
     planned.time_s = load.time_s;
@@ -111,6 +113,17 @@ void save_progress(WorldState& world, std::span<PlannedBreak> all) {
       world.actors.find(planned.impact.key)->stress.memory = std::move(planned.stressed.memory);
 }
 
+/// Returns true if an impact of a trial is that on a body which goes through what it strikes, by
+/// the latter: of two that could give way to each other, one does.
+bool goes_through(const Trial& trial, const PlannedBreak& body) {
+  return std::ranges::any_of(trial.planned, [&](const PlannedBreak& other) {
+    const bool strikes = other.striker == body.impact.key ||
+                         std::ranges::binary_search(other.riders, body.impact.key);
+    return other.breaks && other.impact.key == body.striker && strikes && other.command.plug &&
+           other.command.plug->through;
+  });
+}
+
 /// Carries out the breaks of a trial for which its energy suffices, and appends the keys of the
 /// broken actors to `all_broken`. Returns false if there are none.
 bool carry_out_breaks(WorldState& world, const Breaker& breaker, Trial& trial,
@@ -121,6 +134,7 @@ bool carry_out_breaks(WorldState& world, const Breaker& breaker, Trial& trial,
   for (std::uint32_t i = 0; i < trial.planned.size(); ++i) {
     const PlannedBreak& planned = trial.planned[i];
     of_load[planned.load] = i;
+    if (goes_through(trial, planned)) continue;
     const Outcome outcome = outcome_of(world, planned, pieces);
     record_outcome(world, planned, outcome);
     if (outcome != Outcome::kBreaks) continue;

@@ -133,8 +133,14 @@ void add_striker(const WorldState& world, const PlannedBreak& planned, const Act
   const ActorImpact& impact = planned.impact;
   const Material& material = world.material(actor.structure.convex(impact.convex)->material);
   if (!striker || !breaks_before_waves_arrive(material, planned.speed_m_s)) return;
+  std::vector<const Actor*> strikers = {striker};
+  double mass_kg = striker->weight.mass_kg;
+  for (const std::uint32_t rider : planned.riders) {
+    strikers.push_back(world.actors.find(rider));
+    mass_kg += strikers.back()->weight.mass_kg;
+  }
   const std::vector<Vec3> section_W =
-      cross_section(world, *striker, impact.point_W, path_W, material.impact_radius_m);
+      cross_section(world, strikers, impact.point_W, path_W, material.impact_radius_m);
   for (const Vec3& corner : section_W)
     hit.section_R.push_back(X_WB.inverse() * corner + actor.weight.com_R);
   if (hit.section_R.empty()) return;
@@ -145,6 +151,10 @@ void add_striker(const WorldState& world, const PlannedBreak& planned, const Act
   hit.narrow = widest_m <= 2 * material.impact_radius_m;
   hit.speed_m_s = planned.speed_m_s;
   hit.striker_kg = planned.striker_kg();
+  if (!planned.riders.empty()) {
+    hit.striker_kg = mass_kg;
+    hit.energy_J = 0.5 * mass_kg * hit.speed_m_s * hit.speed_m_s;
+  }
   hit.held = actor.is_static;
   const double most_m = kMaxPerforatedReaches * reach_of(hit);
   hit.thickness_m =
@@ -261,6 +271,8 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
       planned.share_along_normal = hit.cosine * hit.cosine;
     }
   }
+  // The impulses of the contacts know nothing of what follows at a distance.
+  if (!planned.riders.empty() && goes_through(planned.command)) planned.share_along_normal = 0;
   if (impact.pattern) {
     planned.command.pattern = *impact.pattern;
     planned.command.plug.reset();

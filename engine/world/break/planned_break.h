@@ -30,6 +30,7 @@ struct PlannedBreak {
   ActorImpact impact;
   std::uint32_t load = 0;               ///< Index in the loads of the probe.
   std::uint32_t striker = kNoActorKey;  ///< Key of the body that strikes.
+  std::vector<std::uint32_t> riders;    ///< Keys of the bodies that strike with it as one.
   double speed_m_s = 0;                 ///< Closing speed of the striker; 0: unknown.
   Vec3 path_m_s_W = Vec3::Zero();       ///< Velocity of the striker relative to the actor.
   Vec3 path_W = Vec3::UnitY();          ///< Unit; the striker's path through the actor.

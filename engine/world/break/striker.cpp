@@ -39,6 +39,34 @@ std::pair<Vec3, Vec3> axes_across(const Vec3& direction) {
   return {first, direction.cross(first)};
 }
 
+/// Adds points of the outline of an actor that is projected along u × v onto the plane through a
+/// point; of a ball in order.
+void add_outline(const WorldState& world, const Actor& actor, const Vec3& point_W, const Vec3& u,
+                 const Vec3& v, double reach_m, std::vector<Vec2>& points) {
+  const Pose X_WB = world.physics->state(actor.body).X_WB;
+  if (actor.structure.empty()) {
+    const SinCos corner = sin_cos(std::numbers::pi / kRoundSectionCorners);
+    // The polygon has the area of the circle.
+    const double radius_m =
+        ball_radius_m(actor.volume_m3) *
+        std::sqrt(std::numbers::pi / (kRoundSectionCorners * corner.sin * corner.cos));
+    const Vec3 center_W = X_WB.position - point_W;
+    for (int i = 0; i < kRoundSectionCorners; ++i) {
+      const SinCos angle = sin_cos(2 * std::numbers::pi * i / kRoundSectionCorners);
+      points.push_back(Vec2(u.dot(center_W), v.dot(center_W)) +
+                       radius_m * Vec2(angle.cos, angle.sin));
+    }
+    return;
+  }
+  const Pose X_WR = rest_pose(actor, X_WB);
+  for (const ConvexSlot slot : actor.structure.within(X_WR.inverse() * point_W, reach_m)) {
+    for (const Vec3& vertex : actor.structure.convex(slot)->polyhedron.vertices) {
+      const Vec3 at_W = X_WR * vertex - point_W;
+      points.emplace_back(u.dot(at_W), v.dot(at_W));
+    }
+  }
+}
+
 /// Returns true if a piece of the solid reaches into the prism that the striker sweeps.
 bool is_in_prism(const SweptPrism& prism, const Vec3& com_R, double volume_m3) {
   const double reach_m = 0.5 * cube_root(volume_m3);
@@ -85,29 +113,73 @@ double median_behind(const std::vector<Vec3>& section_R, const Vec3& point_R,
   return *middle;
 }
 
-/// Turns the velocity of a striker relative to the rest of a solid into the direction of the path,
-/// as the sides of the hole guide the striker, and takes the part of the work that the impulses of
-/// the contacts have not. `rest` is null for a held solid. Returns the change of kinetic energy.
-double keep_on_path(WorldState& world, const PlannedBreak& planned, const Actor& striker,
+/// Applies an impulse to an actor at a time of the step: the actor is at that time where it would
+/// be without the impulse. Returns the change of kinetic energy.
+double push_at(WorldState& world, const Actor& actor, const Vec3& impulse_Ns, const Vec3& point_W,
+               double time_s) {
+  BodyState moved = world.physics->state(actor.body);
+  moved.X_WB.position -= time_s / actor.weight.mass_kg * impulse_Ns;
+  world.physics->set_state(actor.body, moved);
+  return push_actor(world, actor, impulse_Ns, point_W);
+}
+
+/// What strikes: the striker and what goes with it.
+struct Strikers {
+  std::vector<const Actor*> all;  ///< The striker first.
+  double mass_kg = 0;
+
+  Vec3 velocity_W(const WorldState& world) const {
+    Vec3 momentum_Ns = Vec3::Zero();
+    for (const Actor* actor : all)
+      momentum_Ns += actor->weight.mass_kg * world.physics->state(actor->body).velocity_W;
+    return momentum_Ns / mass_kg;
+  }
+  /// Applies an impulse to all, shared by mass, so that their velocities change alike.
+  double push(WorldState& world, const Vec3& impulse_Ns, double time_s) const {
+    double gain_J = 0;
+    for (const Actor* actor : all) {
+      const double share = actor->weight.mass_kg / mass_kg;
+      const Vec3 at_W = world.physics->state(actor->body).X_WB.position;
+      gain_J += push_at(world, *actor, share * impulse_Ns, at_W, time_s);
+    }
+    return gain_J;
+  }
+};
+
+Strikers strikers_of(const WorldState& world, const PlannedBreak& planned) {
+  Strikers strikers;
+  const auto add = [&](std::uint32_t key) {
+    const Actor* actor = world.actors.find(key);
+    if (!actor) return;
+    strikers.all.push_back(actor);
+    strikers.mass_kg += actor->weight.mass_kg;
+  };
+  add(planned.striker);
+  for (const std::uint32_t key : planned.riders) add(key);
+  return strikers;
+}
+
+/// Turns the velocity of strikers relative to the rest of a solid into the direction of the path,
+/// as the sides of the hole guide them, and takes the part of the work that the impulses of the
+/// contacts have not. `rest` is null for a held solid. Returns the change of kinetic energy.
+double keep_on_path(WorldState& world, const PlannedBreak& planned, const Strikers& strikers,
                     const Actor* rest, const Vec3& path_W) {
-  const BodyStates states = world.physics->states();
-  const Vec3 at_W = states[striker.body].X_WB.position;
-  Vec3 relative_m_s = states[striker.body].velocity_W;
-  if (rest) relative_m_s -= states[rest->body].field()(at_W);
-  double inverse_kg = 1 / striker.weight.mass_kg;
-  if (rest) inverse_kg += inverse_effective_mass(*rest, states[rest->body], at_W, path_W);
+  const Vec3 at_W = world.physics->state(strikers.all[0]->body).X_WB.position;
+  Vec3 relative_m_s = strikers.velocity_W(world);
+  double inverse_kg = 1 / strikers.mass_kg;
+  if (rest) {
+    const BodyState state = world.physics->state(rest->body);
+    relative_m_s -= state.field()(at_W);
+    inverse_kg += inverse_effective_mass(*rest, state, at_W, path_W);
+  }
   const double left_m2_s2 =
       relative_m_s.squaredNorm() - 2 * inverse_kg * (planned.needed_J - planned.along_normal_J());
   const Vec3 change_m_s = std::sqrt(std::max(0.0, left_m2_s2)) * path_W - relative_m_s;
   if (change_m_s.isZero(0)) return 0;
   const Vec3 impulse_Ns = 1 / inverse_kg * change_m_s;
-  // The shift keeps the position that the body has at the time of the impact.
-  const auto push = [&](const Actor& actor, const Vec3& by_Ns) {
-    BodyState moved = world.physics->state(actor.body);
-    moved.X_WB.position -= planned.time_s / actor.weight.mass_kg * by_Ns;
-    return move_actor(world, actor, moved) + push_actor(world, actor, by_Ns, at_W);
-  };
-  return push(striker, impulse_Ns) + (rest ? push(*rest, -impulse_Ns) : 0);
+  double gain_J = strikers.push(world, impulse_Ns, planned.time_s);
+  if (rest) gain_J += push_at(world, *rest, -impulse_Ns, at_W, planned.time_s);
+  return gain_J;
 }
 
 /// Returns true if convexes that stay in place are in the prism that the striker sweeps.
@@ -120,34 +192,13 @@ bool is_blocked(const WorldState& world, const PlannedBreak& planned) {
 
 }  // namespace
 
-std::vector<Vec3> cross_section(const WorldState& world, const Actor& actor, const Vec3& point_W,
-                                const Vec3& direction_W, double reach_m) {
+std::vector<Vec3> cross_section(const WorldState& world, std::span<const Actor* const> actors,
+                                const Vec3& point_W, const Vec3& direction_W, double reach_m) {
   const auto [u, v] = axes_across(direction_W);
-  const Pose X_WB = world.physics->state(actor.body).X_WB;
   std::vector<Vec2> hull;
-  if (actor.structure.empty()) {
-    const SinCos corner = sin_cos(std::numbers::pi / kRoundSectionCorners);
-    // The polygon has the area of the circle.
-    const double radius_m =
-        ball_radius_m(actor.volume_m3) *
-        std::sqrt(std::numbers::pi / (kRoundSectionCorners * corner.sin * corner.cos));
-    const Vec3 center_W = X_WB.position - point_W;
-    for (int i = 0; i < kRoundSectionCorners; ++i) {
-      const SinCos angle = sin_cos(2 * std::numbers::pi * i / kRoundSectionCorners);
-      hull.push_back(Vec2(u.dot(center_W), v.dot(center_W)) +
-                     radius_m * Vec2(angle.cos, angle.sin));
-    }
-  } else {
-    const Pose X_WR = rest_pose(actor, X_WB);
-    const Vec3 point_R = X_WR.inverse() * point_W;
-    std::vector<Vec2> points;
-    for (const ConvexSlot slot : actor.structure.within(point_R, reach_m)) {
-      for (const Vec3& vertex : actor.structure.convex(slot)->polyhedron.vertices) {
-        const Vec3 at_W = X_WR * vertex - point_W;
-        points.emplace_back(u.dot(at_W), v.dot(at_W));
-      }
-    }
-    hull = convex_outline(std::move(points), 0);
+  for (const Actor* actor : actors) add_outline(world, *actor, point_W, u, v, reach_m, hull);
+  if (actors.size() > 1 || !actors[0]->structure.empty()) {
+    hull = convex_outline(std::move(hull), 0);
     simplify(hull);
   }
   double area_m2 = 0, widest_m = 0;
@@ -226,21 +277,30 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   plug_kg += debris_kg;
   if (!(plug_kg > 0)) return;
   const Vec3 middle_W = pieces.empty() ? planned.impact.point_W : Vec3(moment_kgm / pieces_kg);
+  const Strikers strikers = strikers_of(world, planned);
+  const bool several = strikers.all.size() > 1;
   double gain_J = 0;
   if (plug && !striker->is_kinematic && (is_held || rest))
-    gain_J += keep_on_path(world, planned, *striker, is_held ? nullptr : rest, axis_W);
+    gain_J += keep_on_path(world, planned, strikers, is_held ? nullptr : rest, axis_W);
   const BodyState state = world.physics->state(striker->body);
-  const double closing_m_s = state.field()(middle_W).dot(axis_W) - at_rest_m_s / plug_kg;
+  const Vec3 velocity_W = several ? strikers.velocity_W(world) : state.field()(middle_W);
+  const double closing_m_s = velocity_W.dot(axis_W) - at_rest_m_s / plug_kg;
   if (!(closing_m_s > 0)) return;
-  const double gain_m_s =
-      closing_m_s / (1 + plug_kg * inverse_effective_mass(*striker, state, middle_W, axis_W));
+  const double inverse_kg = several
+                                ? 1 / strikers.mass_kg
+                                : inverse_effective_mass(*striker, state, middle_W, axis_W);
+  const double gain_m_s = closing_m_s / (1 + plug_kg * inverse_kg);
   for (const Actor* piece : pieces) {
     BodyState moved = world.physics->state(piece->body);
     moved.velocity_W += gain_m_s * axis_W;
+    moved.X_WB.position -= planned.time_s * gain_m_s * axis_W;
     gain_J += move_actor(world, *piece, moved);
   }
-  if (!striker->is_kinematic)
-    gain_J += push_actor(world, *striker, -plug_kg * gain_m_s * axis_W, middle_W);
+  if (!striker->is_kinematic) {
+    const Vec3 impulse_Ns = -plug_kg * gain_m_s * axis_W;
+    gain_J += several ? strikers.push(world, impulse_Ns, planned.time_s)
+                      : push_at(world, *striker, impulse_Ns, middle_W, planned.time_s);
+  }
   const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
   EnergyFlows& energy = world.log.report.energy;
   energy.debris += debris_J;

@@ -2,6 +2,7 @@
 // motion after a perforation (docs/decisions/047). Internal to engine/world.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/base/types.h"
@@ -10,11 +11,12 @@
 
 namespace sunder {
 
-/// Returns the corners of the cross-section of an actor projected along `direction_W` (unit) onto
-/// the plane through `point_W`, counter-clockwise about the direction. An actor with a structure is
-/// represented by its convexes within `reach_m` of the point. Empty if the section has no area.
-std::vector<Vec3> cross_section(const WorldState& world, const Actor& actor, const Vec3& point_W,
-                                const Vec3& direction_W, double reach_m);
+/// Returns the corners of the cross-section of actors, at least one, projected along `direction_W`
+/// (unit) onto the plane through `point_W`, counter-clockwise about the direction; of several the
+/// outline around all. An actor with a structure is represented by its convexes within `reach_m` of
+/// the point. Empty if the section has no area.
+std::vector<Vec3> cross_section(const WorldState& world, std::span<const Actor* const> actors,
+                                const Vec3& point_W, const Vec3& direction_W, double reach_m);
 
 /// Returns the thickness of a structure behind a section: the median over the rays, from `point_R`
 /// and from halfway to each corner, that hit the structure. A single ray could pass between
