@@ -98,6 +98,7 @@ struct ImpactLoad {
   Vec3 arm_W = Vec3::Zero();         ///< From the body's centre of mass to the mean contact point.
   Vec3 direction_W = Vec3::UnitY();  ///< Unit, into the body.
   double work_J = 0;
+  double striker_J = 0;  ///< Part of the work that the striker and its riders do.
   double impulse_Ns = 0;
   /// Closing speed that the loading contacts would have without the body: a mean weighted by the
   /// momentum flux (impulse × speed) of each contact.

@@ -62,6 +62,9 @@ inline constexpr double kMaxStressBreakShare = 0.9;
 /// Minimum cosine between a striker's relative velocity and the contact normal for a path along
 /// that velocity; other strikers glance.
 inline constexpr double kMinPathCosine = 0.4;
+/// Minimum work of a striker, as a fraction of that of all that strikes at once, for a striker that
+/// is alone.
+inline constexpr double kMinShareAlone = 0.99;
 /// Number of corners of the cross-section of a ball.
 inline constexpr int kRoundSectionCorners = 8;
 inline constexpr std::size_t kMaxSectionCorners = 8;  ///< Maximum corners of another cross-section.

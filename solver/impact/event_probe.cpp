@@ -393,6 +393,14 @@ void EventProbe::add_riders(const ClusterMotion& without, ImpactLoad& load) cons
       if (std::ranges::find(found, other) == found.end()) found.push_back(other);
     }
   }
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    const ProbeContact& c = contacts_[closed_[i]];
+    const ContactRow& row = rows_[closed_[i]];
+    if (c.a != load.body && c.b != load.body) continue;
+    if (std::ranges::find(found, c.a == load.body ? c.b : c.a) == found.end()) continue;
+    load.striker_J += 0.5 * with_->impulses_Ns[i] *
+                      (row.speed(without.velocities) + row.speed(with_->velocities));
+  }
   load.riders.assign(found.begin() + 1, found.end());
   std::ranges::sort(load.riders);
 }

@@ -36,6 +36,7 @@ void add_impacts(const WorldState& world, Trial& trial) {
     planned.striker = trial.probe->bodies()[load.striker].key;
     for (const std::uint32_t rider : load.riders)
       planned.riders.push_back(trial.probe->bodies()[rider].key);
+    planned.striker_J = load.striker_J;
     planned.speed_m_s = load.speed_m_s;
     planned.path_m_s_W = load.path_m_s_W;
     planned.time_s = load.time_s;

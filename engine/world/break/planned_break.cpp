@@ -108,6 +108,19 @@ void choose_break_mode(const WorldState& world, const Structure& structure, Plan
   planned.crushing_J = 0;
 }
 
+bool goes_through(const BreakCommand& command) { return command.plug && command.plug->through; }
+
+/// Lets what is left around a hole break again in the step in which it came off, if the solid may.
+void let_rest_break(WorldState& world, std::span<const std::uint64_t> pieces,
+                    std::uint64_t born_step) {
+  Actor* rest = nullptr;
+  for (const std::uint64_t key : pieces) {
+    Actor* piece = world.actors.find(static_cast<std::uint32_t>(key));
+    if (!rest || piece->weight.mass_kg > rest->weight.mass_kg) rest = piece;
+  }
+  if (rest) rest->born_step = born_step;
+}
+
 /// Returns the distance from the point of impact to the farthest corner of the section.
 double reach_of(const StructureImpact& hit) {
   double reach_m = 0;
@@ -150,7 +163,10 @@ void add_striker(const WorldState& world, const PlannedBreak& planned, const Act
   hit.direction_R = X_WB.rotation.conjugate() * path_W;
   hit.narrow = widest_m <= 2 * material.impact_radius_m;
   hit.speed_m_s = planned.speed_m_s;
-  hit.striker_kg = planned.striker_kg();
+  // Others that strike at the same time, and what follows at a distance, are in one sum but not in
+  // the other.
+  hit.energy_J = planned.striker_J;
+  hit.striker_kg = 2 * planned.striker_J / (planned.speed_m_s * planned.speed_m_s);
   if (!planned.riders.empty()) {
     hit.striker_kg = mass_kg;
     hit.energy_J = 0.5 * mass_kg * hit.speed_m_s * hit.speed_m_s;
@@ -245,9 +261,6 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
   // impact over several steps gets no several chances.
   const std::uint64_t seed = combine(world.scene.seed, impact.key);
   const Convex& convex = *actor.structure.convex(impact.convex);
-  const auto goes_through = [](const BreakCommand& command) {
-    return command.plug && command.plug->through;
-  };
   planned.command = breaker.command(convex, *world.materials, hit, event, seed);
   // A striker that drives a plug out of a face goes along its own path. At an edge, where no plug
   // comes out along the contact normal, the striker pushes along that normal.
@@ -271,8 +284,9 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
       planned.share_along_normal = hit.cosine * hit.cosine;
     }
   }
-  // The impulses of the contacts know nothing of what follows at a distance.
-  if (!planned.riders.empty() && goes_through(planned.command)) planned.share_along_normal = 0;
+  // The impulses of the contacts are those of all that strikes, and of nothing that follows.
+  const bool alone = planned.riders.empty() && planned.striker_J > kMinShareAlone * impact.energy_J;
+  if (!alone && goes_through(planned.command)) planned.share_along_normal = 0;
   if (impact.pattern) {
     planned.command.pattern = *impact.pattern;
     planned.command.plug.reset();
@@ -389,6 +403,7 @@ void break_actor(WorldState& world, const Breaker& breaker, PlannedBreak& planne
     actor.stress.memory = planned.stressed.memory;
   }
   const bool only_bends = planned.only_bends();
+  const std::uint64_t born_step = actor.born_step;
   if (planned.edit.changed) event.pieces = pieces_after(actor.structure, planned.edit);
   world.log.report.failed += planned.edit.loose.failed;
   world.log.report.failed_m3 += planned.edit.loose.failed_m3;
@@ -397,6 +412,8 @@ void break_actor(WorldState& world, const Breaker& breaker, PlannedBreak& planne
     const std::uint32_t first_key = world.actors.next_key();
     event.child_keys = apply_break(world, impact.key, planned.edit);
     if (!planned.at_bonds) apply_plastic_collision(world, planned, first_key);
+    if (!planned.at_bonds && goes_through(planned.command))
+      let_rest_break(world, event.child_keys, born_step);
   } else {  // cracked, but still in one piece
     actor.structure.apply(planned.edit);
   }

@@ -31,6 +31,7 @@ struct PlannedBreak {
   std::uint32_t load = 0;               ///< Index in the loads of the probe.
   std::uint32_t striker = kNoActorKey;  ///< Key of the body that strikes.
   std::vector<std::uint32_t> riders;    ///< Keys of the bodies that strike with it as one.
+  double striker_J = 0;                 ///< Work of the striker and what goes with it.
   double speed_m_s = 0;                 ///< Closing speed of the striker; 0: unknown.
   Vec3 path_m_s_W = Vec3::Zero();       ///< Velocity of the striker relative to the actor.
   Vec3 path_W = Vec3::UnitY();          ///< Unit; the striker's path through the actor.
@@ -56,8 +57,6 @@ struct PlannedBreak {
   bool breaks = false;    ///< The energy of the impact suffices.
   bool at_bonds = false;  ///< The chosen mode is by stress.
 
-  /// Effective mass of the striker, from its work and speed.
-  double striker_kg() const { return 2 * impact.energy_J / (speed_m_s * speed_m_s); }
   double along_normal_J() const { return share_along_normal * needed_J; }
   /// True if the break only makes plastic hinges, and no cracks.
   bool only_bends() const { return at_bonds && edit.cut.empty(); }

@@ -235,8 +235,12 @@ void make_contact(const Shape& a, const Shape& b, const Bodies& bodies, const Pa
     flight.turning = !a.facet && reach.spin_m > kTurningMotion * m.size_m;
     meet = flight.to_impact(reach.margin_m, moment, axis);
     // The normal of a ball turns until it touches, or is past an edge.
-    if (meet && b.kind == Kind::kSphere)
-      flight.to_impact(kBallImpactGap * m.size_m, moment, axis);
+    if (meet && b.kind == Kind::kSphere) {
+      SeparatingAxis touching = axis;
+      Moment touch = moment;
+      const bool touches = flight.to_impact(kBallImpactGap * m.size_m, touch, touching);
+      if (!touches || moment.time_s > 0) axis = touching, moment = touch;
+    }
   }
   const bool by_front = meet && a.facet && !normal_to_surface(a, axis.normal_A);
   if (by_front) {
