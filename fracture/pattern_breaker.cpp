@@ -134,10 +134,16 @@ void mark_crushed(const BreakCommand& command, BreakPlan& plan) {
   }
 }
 
-/// Replaces the pattern by a plug if the striker drives one out of the solid.
-void add_plug(const Material& material, const StructureImpact& hit, BreakCommand& command) {
+/// Replaces the pattern by a plug if the striker drives one out of the solid. A pane that is not
+/// pierced has no crater: it bends, and cracks by its pattern.
+void add_plug(const Convex& convex, const Material& material, const StructureImpact& hit,
+              BreakCommand& command) {
   Pose X_RP;
   command.plug = make_plug(material, hit, X_RP);
+  const PatternSpec::Kind kind = material.pattern.kind;
+  const bool is_pane =
+      is_thin(convex) && (kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial);
+  if (command.plug && is_pane && !command.plug->through) command.plug.reset();
   if (!command.plug) return;
   command.X_RP = X_RP;
   const double widest_m =
@@ -173,7 +179,7 @@ class PatternBreaker final : public Breaker {
     }
     command.X_RP = {hit.point_R,
                     orientation(command.pattern.kind, convex, hit.direction_R, random)};
-    add_plug(material, hit, command);
+    add_plug(convex, material, hit, command);
     return command;
   }
 

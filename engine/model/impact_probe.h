@@ -103,6 +103,9 @@ struct ImpactLoad {
   /// Closing speed that the loading contacts would have without the body: a mean weighted by the
   /// momentum flux (impulse × speed) of each contact.
   double speed_m_s = 0;
+  /// Largest speed at which the body would meet one of the others with all the energy of its
+  /// rotation. A body that falls on one end strikes with the other end faster than this.
+  double whole_m_s = 0;
   std::uint32_t striker = 0;  ///< Index of the other body at the largest momentum flux.
   /// Velocity of the striker relative to the body at that contact, if the body were not in the way.
   Vec3 path_m_s_W = Vec3::Zero();

@@ -25,6 +25,9 @@ inline constexpr std::size_t kMaxThinChecks = 8;
 inline constexpr double kMaxImpulseGain = 2;
 /// Number of touching pairs of convexes of two bodies from which each pair counts as one contact.
 inline constexpr std::size_t kMinMergedPairs = 4;
+/// Speed at which a plate breaks that lands flat, over that whose wave has its strength: the stress
+/// of bending is added to that of the wave.
+inline constexpr double kFlatLanding = 0.78;
 /// Impedance of the ground, Pa·s/m: that of concrete.
 inline constexpr double kGroundImpedance_Pa_s_m = 8.5e6;
 

@@ -373,10 +373,28 @@ std::vector<ImpactLoad> EventProbe::loads(const ClusterMotion& without) const {
     load.arm_W /= load.impulse_Ns;
     load.direction_W.normalize();
     load.time_s = time_s_;
+    load.whole_m_s = whole_m_s(load.body);
     add_riders(without, load);
     add_contact_impulses(load);
   }
   return all;
+}
+
+double EventProbe::whole_m_s(std::uint32_t body) const {
+  const auto turning = [&](std::uint32_t of) {  // a speed squared
+    if (bodies_[of].inverse_mass <= 0) return 0.;
+    const Vec3& spin_W = velocities_[of].angular;
+    return bodies_[of].inverse_mass * spin_W.dot(bodies_[of].inverse_inertia_W.inverse() * spin_W);
+  };
+  double meeting = 0, spinning = 0;  // speeds squared
+  for (const std::uint32_t i : closed_) {
+    for (const std::uint32_t other : {contacts_[i].a, contacts_[i].b}) {
+      meeting =
+          std::max(meeting, (velocities_[other].linear - velocities_[body].linear).squaredNorm());
+      spinning = std::max(spinning, turning(other));
+    }
+  }
+  return std::sqrt(meeting + spinning);
 }
 
 void EventProbe::add_riders(const ClusterMotion& without, ImpactLoad& load) const {

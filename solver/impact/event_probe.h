@@ -63,6 +63,8 @@ class EventProbe final : public ImpactProbe {
   ClusterMotion solve(const std::vector<std::uint8_t>& removed);
   std::uint32_t body_to_load(const ProbeContact& c) const;
   std::vector<ImpactLoad> loads(const ClusterMotion& without) const;
+  /// Returns ImpactLoad::whole_m_s of a body.
+  double whole_m_s(std::uint32_t body) const;
   /// Adds the bodies that go with a load's striker.
   void add_riders(const ClusterMotion& without, ImpactLoad& load) const;
   void add_contact_impulses(ImpactLoad& load) const;

@@ -106,8 +106,8 @@ void set_least(const WorldState& world, Actor& actor) {
     double limit_Pa = material.impact_limit_Pa(false);
     if (may_bend) limit_Pa = std::min(limit_Pa, material.impact_limit_Pa(true));
     actor.least_Ns = std::min(actor.least_Ns, limit_Pa > 0 ? 0 : material.strength_Ns.value_or(0));
-    actor.least_m_s = std::min(actor.least_m_s,
-                               material.strength_Ns ? 0 : limit_Pa / material.impedance_Pa_s_m());
+    const double limit_m_s = (may_bend ? kFlatLanding : 1) * limit_Pa / material.impedance_Pa_s_m();
+    actor.least_m_s = std::min(actor.least_m_s, material.strength_Ns ? 0 : limit_m_s);
     actor.least_slow_J = std::min(actor.least_slow_J, material.strain_energy_J(limit_Pa, reach_m3));
   }
   if (!reports_contact_loads(world, actor)) return;

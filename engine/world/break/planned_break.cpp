@@ -17,6 +17,10 @@
 namespace sunder {
 namespace {
 
+/// Largest share of an impact's energy that goes into the cracks of a solid that just breaks (Grady
+/// 1988, with a crack across of the area of a side).
+constexpr double kGradyShare = 0.24;
+
 /// Returns the fracture energy of the new crack surface; each crack has two sides.
 double crack_energy_J(const WorldState& world, const BreakEdit& edit) {
   double energy = 0;
@@ -53,7 +57,8 @@ double area_m2(const PlannedBreak& planned) {
 /// energy suffices, and the impact is too fast for waves to carry the load away.
 bool breaks_locally(const WorldState& world, const Structure& structure,
                     const PlannedBreak& planned) {
-  if (!planned.by_pattern || !planned.edit.changed || planned.along_normal_J() >= planned.impact.energy_J)
+  if (!planned.by_pattern || !planned.edit.changed ||
+      planned.along_normal_J() >= planned.impact.energy_J)
     return false;
   const Convex& convex = *structure.convex(planned.impact.convex);
   return planned.command.plug ||
@@ -239,11 +244,19 @@ bool breaks_where_struck(const WorldState& world, const Actor& actor, const Impa
   if (material.strength_Ns && load.impulse_Ns >= *material.strength_Ns) return true;
   if (material.strength_Ns && limit_Pa == 0) return false;
   const double share = share_of_speed(world, convex, striker);
-  const double reach_m3 = reached_m3(material, actor.volume_m3);
-  if (share * share * load.work_J > material.strain_energy_J(limit_Pa, reach_m3)) return true;
+  const double reach_m3 = reached_m3(material, actor.volume_m3), size_m = cube_root(reach_m3);
+  const double crack_J = material.toughness_J_m2 * size_m * size_m / kGradyShare;
+  if (share * share * (load.work_J - crack_J) > material.strain_energy_J(limit_Pa, reach_m3))
+    return true;
   if (is_thin(convex) && load.work_J <= material.strain_energy_J(limit_Pa, bent_m3(convex)))
     return false;
-  return share * load.speed_m_s * material.impedance_Pa_s_m() > limit_Pa;
+  const double speed_m_s = std::min(load.speed_m_s, load.whole_m_s);
+  const double squared_m2_s2 =
+      speed_m_s * speed_m_s - 2 * crack_J / (material.density_kg_m3 * reach_m3);
+  const bool lands_flat = is_thin(convex) && (!striker || striker->is_static);
+  const double limit_m_s =
+      (lands_flat ? kFlatLanding : 1) * limit_Pa / (share * material.impedance_Pa_s_m());
+  return squared_m2_s2 > limit_m_s * limit_m_s;
 }
 
 bool breaks_before_waves_arrive(const Material& material, double speed_m_s) {
@@ -275,9 +288,9 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
     // The plug ends where the last of its sides leaves the solid.
     oblique.thickness_m +=
         reach_of(oblique) * std::sqrt(1 - oblique.cosine * oblique.cosine) / oblique.cosine;
-    oblique.path_m = path_behind(actor.structure, oblique.section_R, oblique.point_R,
-                                 oblique.direction_R, reach_of(oblique),
-                                 kMaxPerforatedReaches * reach_of(oblique));
+    oblique.path_m =
+        path_behind(actor.structure, oblique.section_R, oblique.point_R, oblique.direction_R,
+                    reach_of(oblique), kMaxPerforatedReaches * reach_of(oblique));
     BreakCommand command = breaker.command(convex, *world.materials, oblique, event, seed);
     if (goes_through(command)) {
       hit = std::move(oblique), planned.command = std::move(command);

@@ -286,9 +286,8 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   const Vec3 velocity_W = several ? strikers.velocity_W(world) : state.field()(middle_W);
   const double closing_m_s = velocity_W.dot(axis_W) - at_rest_m_s / plug_kg;
   if (!(closing_m_s > 0)) return;
-  const double inverse_kg = several
-                                ? 1 / strikers.mass_kg
-                                : inverse_effective_mass(*striker, state, middle_W, axis_W);
+  const double inverse_kg =
+      several ? 1 / strikers.mass_kg : inverse_effective_mass(*striker, state, middle_W, axis_W);
   const double gain_m_s = closing_m_s / (1 + plug_kg * inverse_kg);
   for (const Actor* piece : pieces) {
     BodyState moved = world.physics->state(piece->body);
