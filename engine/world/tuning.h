@@ -25,6 +25,9 @@ inline constexpr std::size_t kMaxThinChecks = 8;
 inline constexpr double kMaxImpulseGain = 2;
 /// Number of touching pairs of convexes of two bodies from which each pair counts as one contact.
 inline constexpr std::size_t kMinMergedPairs = 4;
+/// Largest share of an impact's energy that goes into the cracks of a solid that just breaks (Grady
+/// 1988, with a crack across of the area of a side).
+inline constexpr double kGradyShare = 0.24;
 /// Speed at which a plate breaks that lands flat, over that whose wave has its strength: the stress
 /// of bending is added to that of the wave.
 inline constexpr double kFlatLanding = 0.78;

@@ -17,10 +17,6 @@
 namespace sunder {
 namespace {
 
-/// Largest share of an impact's energy that goes into the cracks of a solid that just breaks (Grady
-/// 1988, with a crack across of the area of a side).
-constexpr double kGradyShare = 0.24;
-
 /// Returns the fracture energy of the new crack surface; each crack has two sides.
 double crack_energy_J(const WorldState& world, const BreakEdit& edit) {
   double energy = 0;
@@ -242,7 +238,7 @@ bool breaks_where_struck(const WorldState& world, const Actor& actor, const Impa
   if (!material.breakable() || load.work_J <= actor.least_J) return false;
   const double limit_Pa = material.impact_limit_Pa(is_thin(convex));
   if (material.strength_Ns && load.impulse_Ns >= *material.strength_Ns) return true;
-  if (material.strength_Ns && limit_Pa == 0) return false;
+  if (limit_Pa == 0) return !material.strength_Ns;  // any stress
   const double share = share_of_speed(world, convex, striker);
   const double reach_m3 = reached_m3(material, actor.volume_m3), size_m = cube_root(reach_m3);
   const double crack_J = material.toughness_J_m2 * size_m * size_m / kGradyShare;

@@ -166,11 +166,13 @@ double keep_on_path(WorldState& world, const PlannedBreak& planned, const Strike
                     const Actor* rest, const Vec3& path_W) {
   const Vec3 at_W = world.physics->state(strikers.all[0]->body).X_WB.position;
   Vec3 relative_m_s = strikers.velocity_W(world);
+  Vec3 then_W = at_W;  // where the striker is by the rest at the time of the impact
   double inverse_kg = 1 / strikers.mass_kg;
   if (rest) {
     const BodyState state = world.physics->state(rest->body);
-    relative_m_s -= state.field()(at_W);
-    inverse_kg += inverse_effective_mass(*rest, state, at_W, path_W);
+    then_W += planned.time_s * (relative_m_s - state.velocity_W);
+    relative_m_s -= state.field()(then_W);
+    inverse_kg += inverse_effective_mass(*rest, state, then_W, path_W);
   }
   const double left_m2_s2 =
       relative_m_s.squaredNorm() - 2 * inverse_kg * (planned.needed_J - planned.along_normal_J());
@@ -178,7 +180,7 @@ double keep_on_path(WorldState& world, const PlannedBreak& planned, const Strike
   if (change_m_s.isZero(0)) return 0;
   const Vec3 impulse_Ns = 1 / inverse_kg * change_m_s;
   double gain_J = strikers.push(world, impulse_Ns, planned.time_s);
-  if (rest) gain_J += push_at(world, *rest, -impulse_Ns, at_W, planned.time_s);
+  if (rest) gain_J += push_at(world, *rest, -impulse_Ns, then_W, planned.time_s);
   return gain_J;
 }
 
@@ -251,7 +253,7 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   double plug_kg = 0;
   Vec3 moment_kgm = Vec3::Zero();
   const Vec3& axis_W = planned.path_W;
-  double at_rest_m_s = 0;
+  Vec3 at_rest_Ns = Vec3::Zero();
   const bool breaks_at_bonds = planned.command.pattern.kind == PatternSpec::Kind::kNone;
   const auto is_in_path = [&](const Actor& piece) {
     if (!plug) return is_in_prism(planned.swept, piece.weight.com_R, piece.volume_m3);
@@ -267,7 +269,7 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
     pieces.push_back(&actor);
     plug_kg += actor.weight.mass_kg;
     moment_kgm += actor.weight.mass_kg * states[actor.body].X_WB.position;
-    at_rest_m_s += actor.weight.mass_kg * states[actor.body].velocity_W.dot(axis_W);
+    at_rest_Ns += actor.weight.mass_kg * states[actor.body].velocity_W;
   }
   // Debris of a held solid takes its share of the momentum; debris of a free solid moves as the
   // solid did.
@@ -277,6 +279,8 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   plug_kg += debris_kg;
   if (!(plug_kg > 0)) return;
   const Vec3 middle_W = pieces.empty() ? planned.impact.point_W : Vec3(moment_kgm / pieces_kg);
+  const Vec3 middle_m_s_W = pieces.empty() ? Vec3::Zero() : Vec3(at_rest_Ns / pieces_kg);
+  const double at_rest_m_s = at_rest_Ns.dot(axis_W) / plug_kg;
   const Strikers strikers = strikers_of(world, planned);
   const bool several = strikers.all.size() > 1;
   double gain_J = 0;
@@ -284,7 +288,7 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
     gain_J += keep_on_path(world, planned, strikers, is_held ? nullptr : rest, axis_W);
   const BodyState state = world.physics->state(striker->body);
   const Vec3 velocity_W = several ? strikers.velocity_W(world) : state.field()(middle_W);
-  const double closing_m_s = velocity_W.dot(axis_W) - at_rest_m_s / plug_kg;
+  const double closing_m_s = velocity_W.dot(axis_W) - at_rest_m_s;
   if (!(closing_m_s > 0)) return;
   const double inverse_kg =
       several ? 1 / strikers.mass_kg : inverse_effective_mass(*striker, state, middle_W, axis_W);
@@ -297,10 +301,12 @@ void apply_plastic_collision(WorldState& world, const PlannedBreak& planned,
   }
   if (!striker->is_kinematic) {
     const Vec3 impulse_Ns = -plug_kg * gain_m_s * axis_W;
+    // The middle of the pieces, as it is by the striker at the time of the impact.
+    const Vec3 then_W = middle_W - planned.time_s * (state.velocity_W - middle_m_s_W);
     gain_J += several ? strikers.push(world, impulse_Ns, planned.time_s)
-                      : push_at(world, *striker, impulse_Ns, middle_W, planned.time_s);
+                      : push_at(world, *striker, impulse_Ns, then_W, planned.time_s);
   }
-  const double debris_J = debris_kg * gain_m_s * (at_rest_m_s / plug_kg + 0.5 * gain_m_s);
+  const double debris_J = debris_kg * gain_m_s * (at_rest_m_s + 0.5 * gain_m_s);
   EnergyFlows& energy = world.log.report.energy;
   energy.debris += debris_J;
   energy.contacts -= gain_J + debris_J;
