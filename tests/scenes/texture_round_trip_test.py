@@ -49,10 +49,11 @@ class Exchange(unittest.TestCase):
         (self.folder / name).write_bytes(data)
         return self.folder / name
 
-    def fracture(self, given, *options, output="pieces.glb"):
+    def fracture(self, given, *options, output="pieces.glb", warning=""):
         run = subprocess.run([PROGRAM, "fracture", given, "--quiet", "-o", self.folder / output,
                               *options], capture_output=True, text=True)
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(run.returncode, 0)
+        self.assertTrue(run.stderr == "" or warning and run.stderr.startswith(warning), run.stderr)
         return self.folder / output
 
 
@@ -81,8 +82,10 @@ class RoundTrip(Exchange):
         given = self.write("box.glb", textured_glb.small_box())
         once = self.fracture(given, "--pattern", "grid:2")
         document = Document(once)
-        # The outer faces of a piece are those of the input, also after another file.
-        twice = self.fracture(once, "--pattern", "voronoi:9", output="twice.glb")
+        # The outer faces of a piece are those of the input, also after another file. Where the
+        # pieces of the first file touch, rounding to single precision may leave walls.
+        twice = self.fracture(once, "--pattern", "voronoi:9", output="twice.glb",
+                              warning="warning: inner walls are kept in")
         pictures = {image for material in check_textures.Surface(document).materials
                     for image in material.images if image}
         again = {image for material in check_textures.Surface(Document(twice)).materials
