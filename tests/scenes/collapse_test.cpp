@@ -96,7 +96,7 @@ TEST(Collapse, BuildingsOfListedPartsCollapseWhenTheyAreShot) {
     const double before = height_m(*frame);
     for (int i = 0; i < 270; ++i) frame = simulation->next();
     // The roof of the shed lies whole on the rubble of its walls.
-    const double share = name == std::string("shed") ? 0.85 : 0.75;
+    const double share = name == std::string("shed") ? 0.84 : 0.75;
     EXPECT_GT(before, 2) << name;
     EXPECT_LT(height_m(*frame), share * before) << name;
   }
@@ -111,7 +111,7 @@ TEST(Collapse, AWallThatWasShotThroughComesToRest) {
     bodies = frame->report.counts.bodies;
     if (frame->time_s > 8) awake = std::max(awake, frame->report.counts.awake);
   }
-  EXPECT_LE(awake * 40, bodies) << "the ball, and the few that still roll";
+  EXPECT_LE(awake * 41, bodies) << "the ball, and the few that still roll";
 }
 
 /// A change of a body's state of rest, and how far its surface moves in that frame.

@@ -76,7 +76,7 @@ std::string compare(const std::string& glb, const std::string& take, const std::
   RecordingReader reader(take);
   RunTables tables({0, 20, 44, 88});  // multiples of 4, when debris moves
   while (const FramePtr frame = reader.next()) tables.take(frame);
-  EXPECT_GT(tables.bodies(), 10u);
+  EXPECT_GT(tables.bodies(), 12u);
   tables.write(folder / "poses", folder / "boxes", folder / "chips");
   const std::string said = folder / "said.txt";
   const std::string command = std::string(SUNDER_NUMPY_PYTHON) +

@@ -85,7 +85,7 @@ class RoundTrip(Exchange):
         # The outer faces of a piece are those of the input, also after another file. Where the
         # pieces of the first file touch, rounding to single precision may leave walls.
         twice = self.fracture(once, "--pattern", "voronoi:9", output="twice.glb",
-                              warning="warning: inner walls are kept in")
+                              warning="warning: inner walls are kept in 5 pieces")
         pictures = {image for material in check_textures.Surface(document).materials
                     for image in material.images if image}
         again = {image for material in check_textures.Surface(Document(twice)).materials
