@@ -140,9 +140,7 @@ void add_plug(const Convex& convex, const Material& material, const StructureImp
               BreakCommand& command) {
   Pose X_RP;
   command.plug = make_plug(material, hit, X_RP);
-  const PatternSpec::Kind kind = material.pattern.kind;
-  const bool is_pane =
-      is_thin(convex) && (kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial);
+  const bool is_pane = is_thin(convex) && cracks_run_out(material.pattern);
   if (command.plug && is_pane && !command.plug->through) command.plug.reset();
   if (!command.plug) return;
   command.X_RP = X_RP;

@@ -58,8 +58,7 @@ double crack_length_m(const Plug& plug, double radius_m, int rings) {
 void add_rings(const Material& material, const StructureImpact& hit, double radius_m, Plug& plug) {
   const double left_J = kCrackShare * (hit.energy_J - plug.energy_J);
   const double affordable_m = left_J / (material.toughness_J_m2 * plug.depth_m);
-  const PatternSpec::Kind kind = material.pattern.kind;
-  const bool is_web = kind == PatternSpec::Kind::kWeb || kind == PatternSpec::Kind::kRadial;
+  const bool is_web = cracks_run_out(material.pattern);
   const double run_m =
       kCrackSpeed * material.shear_wave_m_s() * (plug.depth_m + 2 * radius_m) / hit.speed_m_s;
   const double most_m = is_web ? material.impact_radius_m : kSpallRingWidth * radius_m;
@@ -116,7 +115,8 @@ std::optional<Plug> make_plug(const Material& material, const StructureImpact& h
   X_RP = {hit.point_R + axes * Vec3(middle_m.x(), 0, middle_m.y()), Quat(axes).normalized()};
   plug.solid_m = hit.path_m > 0 ? hit.path_m : plug.depth_m;
   double width_m = 2 * std::sqrt(area_m2 / std::numbers::pi);
-  // The nearest face decides what the solid bears; what is sheared is longer by the slant.
+  // The strength is that of the thickness across the struck face. The sheared sides are longer by
+  // the slant.
   plug.energy_J =
       perforation_energy_J(material, width_m, hit.cosine * plug.solid_m, hit.striker_kg) /
       hit.cosine;

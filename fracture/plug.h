@@ -14,6 +14,11 @@ namespace sunder::fracture {
 double perforation_energy_J(const Material& material, double width_m, double thickness_m,
                             double mass_kg);
 
+/// Returns true if the cracks of a pattern run outwards from the point of impact, as in panes.
+inline bool cracks_run_out(const PatternSpec& pattern) {
+  return pattern.kind == PatternSpec::Kind::kWeb || pattern.kind == PatternSpec::Kind::kRadial;
+}
+
 /// Returns the prism that an impact drives out along its direction, and sets `X_RP` to the pose of
 /// the pattern's frame. It is a plug through the solid if the energy suffices to perforate it;
 /// otherwise a crater as deep as the thickness that the energy can perforate. Returns nullopt if

@@ -82,7 +82,7 @@ struct Plug {
   double reach_m = 0;   ///< Outer radius of the rings, from the origin.
   double energy_J = 0;  ///< Energy for crushing and shearing.
   double mass_kg = 0;  ///< Mass of the solid within the striker's cross-section, through the depth.
-  double solid_m = 0;  ///< Thickness of the solid.
+  double solid_m = 0;  ///< Length of the path in the solid.
   double sides_m2 = 0;  ///< Area of the lateral surface of the hole.
 
   /// Width of the hole over that of the section. What is between the two is crushed.

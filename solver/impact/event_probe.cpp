@@ -369,32 +369,40 @@ std::vector<ImpactLoad> EventProbe::loads(const ClusterMotion& without) const {
     return body.withstands(load.work_J, load.impulse_Ns, load.speed_m_s) ||
            load.direction_W.squaredNorm() <= 0;
   });
+  const double turning_m2_s2 = all.empty() ? 0 : most_turning_m2_s2();
   for (ImpactLoad& load : all) {
     load.arm_W /= load.impulse_Ns;
     load.direction_W.normalize();
     load.time_s = time_s_;
-    load.whole_m_s = whole_m_s(load.body);
+    load.whole_m_s = whole_m_s(load.body, turning_m2_s2);
     add_riders(without, load);
     add_contact_impulses(load);
   }
   return all;
 }
 
-double EventProbe::whole_m_s(std::uint32_t body) const {
-  const auto turning = [&](std::uint32_t of) {  // a speed squared
-    if (bodies_[of].inverse_mass <= 0) return 0.;
-    const Vec3& spin_W = velocities_[of].angular;
-    return bodies_[of].inverse_mass * spin_W.dot(bodies_[of].inverse_inertia_W.inverse() * spin_W);
-  };
-  double meeting = 0, spinning = 0;  // speeds squared
+double EventProbe::most_turning_m2_s2() const {
+  double most = 0;
   for (const std::uint32_t i : closed_) {
-    for (const std::uint32_t other : {contacts_[i].a, contacts_[i].b}) {
-      meeting =
-          std::max(meeting, (velocities_[other].linear - velocities_[body].linear).squaredNorm());
-      spinning = std::max(spinning, turning(other));
+    for (const std::uint32_t body : {contacts_[i].a, contacts_[i].b}) {
+      if (bodies_[body].inverse_mass <= 0) continue;
+      const Vec3& spin_W = velocities_[body].angular;
+      most = std::max(most, bodies_[body].inverse_mass *
+                                spin_W.dot(bodies_[body].inverse_inertia_W.inverse() * spin_W));
     }
   }
-  return std::sqrt(meeting + spinning);
+  return most;
+}
+
+double EventProbe::whole_m_s(std::uint32_t body, double turning_m2_s2) const {
+  double meeting_m2_s2 = 0;
+  for (const std::uint32_t i : closed_) {
+    for (const std::uint32_t other : {contacts_[i].a, contacts_[i].b}) {
+      const Vec3 meeting_m_s = velocities_[other].linear - velocities_[body].linear;
+      meeting_m2_s2 = std::max(meeting_m2_s2, meeting_m_s.squaredNorm());
+    }
+  }
+  return std::sqrt(meeting_m2_s2 + turning_m2_s2);
 }
 
 void EventProbe::add_riders(const ClusterMotion& without, ImpactLoad& load) const {

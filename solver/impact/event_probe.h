@@ -63,9 +63,11 @@ class EventProbe final : public ImpactProbe {
   ClusterMotion solve(const std::vector<std::uint8_t>& removed);
   std::uint32_t body_to_load(const ProbeContact& c) const;
   std::vector<ImpactLoad> loads(const ClusterMotion& without) const;
+  /// Returns the largest energy of rotation per mass of a body with a closed contact, times two.
+  double most_turning_m2_s2() const;
   /// Returns ImpactLoad::whole_m_s of a body.
-  double whole_m_s(std::uint32_t body) const;
-  /// Adds the bodies that go with a load's striker.
+  double whole_m_s(std::uint32_t body, double turning_m2_s2) const;
+  /// Adds the bodies that go with a load's striker, and the work of all these.
   void add_riders(const ClusterMotion& without, ImpactLoad& load) const;
   void add_contact_impulses(ImpactLoad& load) const;
   void add_joint_impulses(ImpactLoad& load) const;

@@ -1,7 +1,7 @@
 // Removal of the common parts of faces in one plane. For each side of an edge, the faces that cover
 // that side are known. Of m faces with an even id and n with an odd id that cover a point, |m - n|
 // remain there. An edge where a face remains on one side only is part of the outline of that face.
-// Where outlines may cross themselves, each face counts as often as it winds about the point.
+// Each face counts as often as it winds about the point, if outlines may cross themselves.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -114,14 +114,14 @@ void save_progress(WorldState& world, std::span<PlannedBreak> all) {
       world.actors.find(planned.impact.key)->stress.memory = std::move(planned.stressed.memory);
 }
 
-/// Returns true if an impact of a trial is that on a body which goes through what it strikes, by
-/// the latter: of two that could give way to each other, one does.
-bool goes_through(const Trial& trial, const PlannedBreak& body) {
+/// Returns true if the body of an impact goes through its striker: of two bodies that could give
+/// way to each other, only one does.
+bool goes_through_striker(const Trial& trial, const PlannedBreak& body) {
   return std::ranges::any_of(trial.planned, [&](const PlannedBreak& other) {
     const bool strikes = other.striker == body.impact.key ||
                          std::ranges::binary_search(other.riders, body.impact.key);
-    return other.breaks && other.impact.key == body.striker && strikes && other.command.plug &&
-           other.command.plug->through;
+    return other.breaks && other.impact.key == body.striker && strikes &&
+           goes_through(other.command);
   });
 }
 
@@ -135,7 +135,7 @@ bool carry_out_breaks(WorldState& world, const Breaker& breaker, Trial& trial,
   for (std::uint32_t i = 0; i < trial.planned.size(); ++i) {
     const PlannedBreak& planned = trial.planned[i];
     of_load[planned.load] = i;
-    if (goes_through(trial, planned)) continue;
+    if (goes_through_striker(trial, planned)) continue;
     const Outcome outcome = outcome_of(world, planned, pieces);
     record_outcome(world, planned, outcome);
     if (outcome != Outcome::kBreaks) continue;

@@ -109,10 +109,9 @@ void choose_break_mode(const WorldState& world, const Structure& structure, Plan
   planned.crushing_J = 0;
 }
 
-bool goes_through(const BreakCommand& command) { return command.plug && command.plug->through; }
-
-/// Lets what is left around a hole break again in the step in which it came off, if the solid may.
-void let_rest_break(WorldState& world, std::span<const std::uint64_t> pieces,
+/// Gives the heaviest piece, which is left around a hole, the step in which its solid came off, so
+/// that others can break it in this step.
+void keep_born_step(WorldState& world, std::span<const std::uint64_t> pieces,
                     std::uint64_t born_step) {
   Actor* rest = nullptr;
   for (const std::uint64_t key : pieces) {
@@ -164,8 +163,8 @@ void add_striker(const WorldState& world, const PlannedBreak& planned, const Act
   hit.direction_R = X_WB.rotation.conjugate() * path_W;
   hit.narrow = widest_m <= 2 * material.impact_radius_m;
   hit.speed_m_s = planned.speed_m_s;
-  // Others that strike at the same time, and what follows at a distance, are in one sum but not in
-  // the other.
+  // The work of the load includes that of other strikers; that of the striker leaves out riders at
+  // a distance.
   hit.energy_J = planned.striker_J;
   hit.striker_kg = 2 * planned.striker_J / (planned.speed_m_s * planned.speed_m_s);
   if (!planned.riders.empty()) {
@@ -293,7 +292,7 @@ void prepare_command(const WorldState& world, const Breaker& breaker, std::uint6
       planned.share_along_normal = hit.cosine * hit.cosine;
     }
   }
-  // The impulses of the contacts are those of all that strikes, and of nothing that follows.
+  // The impulses of the contacts include those of other strikers, and none of riders at a distance.
   const bool alone = planned.riders.empty() && planned.striker_J > kMinShareAlone * impact.energy_J;
   if (!alone && goes_through(planned.command)) planned.share_along_normal = 0;
   if (impact.pattern) {
@@ -422,7 +421,7 @@ void break_actor(WorldState& world, const Breaker& breaker, PlannedBreak& planne
     event.child_keys = apply_break(world, impact.key, planned.edit);
     if (!planned.at_bonds) apply_plastic_collision(world, planned, first_key);
     if (!planned.at_bonds && goes_through(planned.command))
-      let_rest_break(world, event.child_keys, born_step);
+      keep_born_step(world, event.child_keys, born_step);
   } else {  // cracked, but still in one piece
     actor.structure.apply(planned.edit);
   }

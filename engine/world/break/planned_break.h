@@ -62,6 +62,11 @@ struct PlannedBreak {
   bool only_bends() const { return at_bonds && edit.cut.empty(); }
 };
 
+/// Returns true if the striker drives a plug out of the solid and passes through.
+inline bool goes_through(const BreakCommand& command) {
+  return command.plug && command.plug->through;
+}
+
 /// Returns true if an impact breaks the convex that it strikes by its pattern: if the stress of the
 /// wave or the strain energy of the solid exceeds the convex's limit (docs/decisions/049).
 /// `striker` is null for the ground.

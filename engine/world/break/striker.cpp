@@ -123,7 +123,7 @@ double push_at(WorldState& world, const Actor& actor, const Vec3& impulse_Ns, co
   return push_actor(world, actor, impulse_Ns, point_W);
 }
 
-/// What strikes: the striker and what goes with it.
+/// The striker and its riders, which strike as one.
 struct Strikers {
   std::vector<const Actor*> all;  ///< The striker first.
   double mass_kg = 0;
